@@ -67,10 +67,13 @@ int import_command(const ImportOptions& options, const CommonOptions& common) {
     pictures::write_import_report(options.report_folder, report);
     for (const auto& [part, file] : {std::pair{"hdf5", "maps.h5"}, std::pair{"report", "report.html"}})
       if (!has_part(part)) print_notes({left_out_message(part, file) + ": " + left_out_advice(part)}, common.quiet);
-    if (has_part("report"))
-      write_report_file(std::filesystem::path(options.report_folder) / "report.html", [&] {
-        return app::pages::import_page(report, io::import_json(report, false), options.report_folder);
-      });
+    const auto page = [&](const io::ImportReport& one, const std::filesystem::path& folder) {
+      if (has_part("report"))
+        write_report_file(folder / "report.html",
+                          [&] { return app::pages::import_page(one, io::import_json(one, false), folder); });
+    };
+    page(report, options.report_folder);
+    if (report.track) page(*report.track->left, std::filesystem::path(options.report_folder) / pictures::kLeftRail);
   }
   const auto json = [&] { return io::import_json(report, true); };
   write_json_file(options.json_file, json);

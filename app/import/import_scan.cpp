@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -20,7 +21,9 @@
 #include "treadmark/app/import/find_place.hpp"
 #include "treadmark/app/import/import_steps.hpp"
 #include "treadmark/app/import/import_tiles.hpp"
+#include "treadmark/app/import/prepare_clouds.hpp"
 #include "treadmark/app/import/read_map.hpp"
+#include "treadmark/app/import/track_geometry.hpp"
 #include "treadmark/app/import/truth.hpp"
 #include "treadmark/app/import/write_outputs.hpp"
 #include "treadmark/app/surfaces/written_surface.hpp"
@@ -300,13 +303,22 @@ void note_removed(const scans::Projection& projection, std::size_t duplicates, c
            settings.clean.outlier_factor, 1e3 * settings.clean.outlier_factor * noise.typical)});
 }
 
-io::ImportReport import_checked(const ImportRequest& request, const Progress& progress) {
+/// One rail of a track, which is imported as a scan of its own.
+struct RailOfTrack {
+  Clouds cloud;
+  io::ImportReport read;  ///< what reading has told
+  StagedOutputs& staged;
+  std::optional<TrackSide> side = {};  ///< told
+};
+
+io::ImportReport import_checked(const ImportRequest& request, const Progress& progress, RailOfTrack* rail = nullptr) {
   const io::ImportSettings& settings = request.settings;
   io::ImportReport report;
+  if (rail != nullptr) report = std::move(rail->read);
   report.version = version();
   report.settings_toml = io::import_settings_toml(settings);
-  const bool map = request.scans.size() == 1 && settings.map.values == "deviations" && settings.scan.box_from.empty() &&
-                   io::is_deviation_map(request.scans.front());
+  const bool map = rail == nullptr && request.scans.size() == 1 && settings.map.values == "deviations" &&
+                   settings.scan.box_from.empty() && io::is_deviation_map(request.scans.front());
   constexpr std::size_t kSteps = 6, kOfPlacing = 2;  // a map has neither stray points nor a placement
   StepClock clock(
       report, progress,
@@ -320,7 +332,7 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
   if (map) {
     scan = read_map(request, report);
   } else {
-    Clouds clouds = read_clouds(request, report, progress);
+    Clouds clouds = rail != nullptr ? std::move(rail->cloud) : read_points(request, report, progress);
     if (truth) check_points(*truth, report.points_read);
     scan = find_place(std::move(clouds), request, report, clock);
   }
@@ -335,7 +347,10 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
   scans::NoiseSettings how_noise;
   how_noise.outlier_factor = sections ? 0.0 : settings.clean.outlier_factor;
   how_noise.most_flagged = settings.clean.edge_share;
-  const scans::LocalNoise noise = scans::find_noise(projection.points, projection.band, how_noise);
+  how_noise.residuals =
+      !sections && settings.fit.weights && !(scan.passes.empty() && scan.stations.empty() && scan.intensities.empty());
+  scans::LocalNoise noise = scans::find_noise(projection.points, projection.band, how_noise);
+  if (how_noise.residuals) weigh_points(scan, projection, how_noise, noise, report);
   if (!sections) note_removed(projection, duplicates, noise, settings, report);
 
   clock.begin("holes");
@@ -390,7 +405,8 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
   }
   clock.begin("writing");
   const std::vector<std::string> summary = summary_lines(report);
-  StagedOutputs staged;
+  StagedOutputs own;
+  StagedOutputs& staged = rail != nullptr ? rail->staged : own;
   for (const auto& file : request.outputs) {
     clock.tell(file.filename().string());
     if (errors && io::extension_of(file) == ".stl")
@@ -399,9 +415,70 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
           file.filename().string()));
     report.outputs.push_back(write_output(file, staged.place(file), whole, settings, summary));
   }
-  staged.commit();
+  if (rail == nullptr) staged.commit();
   clock.end();
+  if (rail != nullptr) {
+    PlacedScan placed;
+    placed.line = scan.line;
+    placed.placement.X_CS = scan.placement.X_CS;
+    rail->side.emplace(
+        TrackSide{std::move(placed), projection.band, fit.field, s_min, s_max, u_zero, report.u_min, report.u_max});
+  }
   return report;
+}
+
+/// "NAME-left.slcs" for "NAME.slcs".
+std::filesystem::path named_after(const std::filesystem::path& file, const char* rail) {
+  return file.parent_path() / fmt::format("{}-{}{}", file.stem().string(), rail, file.extension().string());
+}
+
+/// Both rails of a track: the report is that of the right one, and has the left one's.
+io::ImportReport import_both(const ImportRequest& request, const Progress& progress) {
+  const io::ImportSettings& settings = request.settings;
+  io::ImportReport read;
+  SeparateRails rails;
+  std::size_t points = 0;
+  {
+    constexpr std::size_t kSteps = 2;
+    StepClock clock(read, progress, kSteps);
+    const CancellationScope scope(progress.stop);
+    clock.begin("reading");
+    Clouds both = read_points(request, read, progress);
+    points = both.cloud.points.size();
+    clock.begin("both rails");
+    rails = separate_rails(std::move(both), settings, read);
+    clock.end();
+  }
+  StagedOutputs staged;
+  std::array<io::ImportReport, 2> reports;
+  std::array<std::optional<TrackSide>, 2> sides;
+  for (const std::size_t side : {0u, 1u}) {
+    ImportRequest of_rail = request;
+    for (auto& file : of_rail.outputs) file = named_after(file, side == 0 ? "left" : "right");
+    check_outputs(of_rail);
+    auto& placement = of_rail.settings.placement;
+    placement.forward = {rails.forward[side].x(), rails.forward[side].y(), rails.forward[side].z()};
+    if (side == 0) placement.line_beside_mm = -placement.line_beside_mm;
+    RailOfTrack rail{std::move(rails.clouds[side]), read, staged};
+    rail.read.removed.push_back({"of no rail, or the other one", points - rail.cloud.cloud.points.size(),
+                                 "farther than 250 mm from the middle of this rail's head"});
+    reports[side] = import_checked(of_rail, progress, &rail);
+    reports[side].settings_toml = io::import_settings_toml(settings);
+    sides[side] = std::move(rail.side);
+  }
+  io::ImportReport& out = reports[1];
+  std::optional<Vec3> up;
+  if (const auto& list = settings.placement.up; list.size() == 3) up = Vec3(list[0], list[1], list[2]).normalized();
+  out.track = measure_track(*sides[0], *sides[1], up);
+  if (out.track->places.empty())
+    out.warnings.emplace_back(
+        "track_gauge: nowhere do both rails lie beside each other: there is neither gauge nor cant");
+  else if (std::isnan(out.track->gauge_mean))
+    out.warnings.emplace_back(
+        "track_gauge: nowhere are both gauge faces in the scan down to 14 mm below the heads: there is no gauge");
+  out.track->left = std::make_shared<const io::ImportReport>(std::move(reports[0]));
+  staged.commit();
+  return std::move(out);
 }
 
 [[noreturn]] void refuse(const std::string& key, const std::string& why) {
@@ -415,6 +492,13 @@ io::ImportReport import_scan(const ImportRequest& request, const Progress& progr
   check_outputs(request);
   check_settings(request.settings, body_of(request));
   try {
+    if (request.settings.scan.rails == "both") {
+      if (!request.truth.empty()) refuse("--truth", "it is that of one rail, and scan.rails is both");
+      if (request.scans.size() == 1 && io::is_deviation_map(request.scans.front()))
+        refuse("scan.rails", "a map or matrix is that of one rail");
+      if (request.settings.tiles.use == "always") refuse("tiles.use", "both rails of a track are told apart in memory");
+      return import_both(request, progress);
+    }
     return goes_by_tiles(request) ? import_tiles(request, progress) : import_checked(request, progress);
   } catch (const Error& error) {
     // what works on points knows nothing of files
@@ -430,6 +514,7 @@ void check_settings(const io::ImportSettings& settings, Body body) {
     if (placement.line_beside_mm != 0.0)
       refuse("placement.line_beside_mm", "it is that of a rail, and this is a wheel");
     if (placement.line != "auto") refuse("placement.line", "it is that of a rail, and this is a wheel");
+    if (settings.scan.rails != "one") refuse("scan.rails", "this is a wheel");
     if (placement.zero_mm != 0.0) refuse("placement.zero_mm", "it is that of a rail, and this is a wheel (zero_deg)");
   } else {
     if (placement.zero_deg != 0.0) refuse("placement.zero_deg", "it is that of a wheel, and this is a rail (zero_mm)");

@@ -24,7 +24,8 @@ struct ImportRequest {
 /// any number of threads. Errors: those of the readers, of placement and fit, naming the file; Error(configuration) for
 /// outputs that cannot hold the surface; Error(numerical) when stopped between steps, Cancelled (core/cancellation.hpp)
 /// within one. Nothing is written then. The surface is compared with a reference that is given; one that does not
-/// fit is refused before the work.
+/// fit is refused before the work. Of both rails of a track (scan.rails) the report is that of the right one, with the
+/// track and the left one's report; outputs are NAME-left and NAME-right.
 io::ImportReport import_scan(const ImportRequest& request, const Progress& progress = {});
 
 /// Refuses settings that would be ignored because they belong to the other body or to another choice.

@@ -674,6 +674,7 @@ std::string not_by_tiles(const ImportRequest& request) {
   if (request.outputs.size() != 1 || !io::is_slices_file(request.outputs.front()))
     return "tiles become slices: one output *.slcs";
   if (!request.truth.empty()) return "with --truth all points are needed at once";
+  if (request.settings.scan.register_mm > 0.0) return "scans are laid on each other (scan.register_mm) in memory only";
   if (request.settings.fit.sections == "keep")
     return "cross-sections are kept (fit.sections) of all points at once only";
   for (const std::filesystem::path& scan : request.scans)

@@ -58,6 +58,7 @@ extern "C" tm_status tm_surface_from_scan(const char* const* files, size_t n_fil
     for (const std::string& setting : texts_of(settings, n_settings, "settings must be n texts"))
       io::set_import_setting(request.settings, setting);
     request.settings.scan.body = body_name(which);
+    require(request.settings.scan.rails == "one", "a surface is one rail: leave scan.rails out");
     const PassingFolder folder;
     request.outputs = {folder.path() / (which == Body::wheel ? "scan.slcw" : "scan.slcs")};
     const io::ImportReport report = app::import_scan(request, callers_progress());

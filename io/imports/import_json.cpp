@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -133,6 +134,14 @@ SchemaRows placed_rows() {
   return out;
 }
 
+/// A list that older files lack.
+template <class File, class Items, class Fields>
+void later_list(const File& file, const char* key, Items& items, Fields fields) {
+  if constexpr (File::kReads)
+    if (!file.in.find(key)) return;
+  file.list(key, items, fields);
+}
+
 template <class File, class Report>
 void frame(const File& file, Report& report) {
   auto& X = report.X_CS;
@@ -167,6 +176,11 @@ void frame(const File& file, Report& report) {
   });
   file.number("pass_distance_before_mm", report.pass_before, kMilli);
   file.number("pass_distance_after_mm", report.pass_after, kMilli);
+  later_list(file, "registrations", report.registrations, [](const File& node, auto& one) {
+    node.row(one);
+    node.vector("shift_mm", one.shift, kMilli);
+    node.vector("turn_mrad", one.turn, kMilli);
+  });
 }
 
 template <class File, class Report>
@@ -223,6 +237,7 @@ void fit(const File& file, Report& report) {
   file.number("held_out_rms_mm", report.held_out_rms, kMilli);
   file.number("held_out_error_mm", report.held_out_error, kMilli);
   optional(file, "surface_errors", report.errors, kRows);
+  later_list(file, "noise_classes", report.noise_classes, kRows);
   file.number("histogram_range_mm", report.residual_range, kMilli);
   file.value("histogram", report.residual_histogram);
   optional(file, "residuals", report.residuals, [](const File& node, auto& residuals) {
@@ -296,6 +311,17 @@ void audit(const File& file, Report& report) {
     node.row(line);
     node.list("places", line.places, kRows);
   });
+  optional(file, "track", report.track, [](const File& node, auto& track) {
+    node.row(track);
+    node.list("places", track.places, kRows);
+    if constexpr (File::kReads) {
+      auto left = std::make_shared<ImportReport>();
+      node.object("left_rail", [&](const File& rail) { audit(rail, *left); });
+      track.left = std::move(left);
+    } else {
+      node.object("left_rail", [&](const File& rail) { audit(rail, *track.left); });
+    }
+  });
   file.object("coverage", [&](const File& node) { coverage(node, report); });
   file.object("fit", [&](const File& node) { fit(node, report); });
   file.number("damage_threshold_mm", report.damage_threshold, kMilli);
@@ -353,6 +379,10 @@ std::string import_report_schema() {
                                        {"pass", schema_rows<Report::Pass>()},
                                        {"line", schema_rows<Report::Line>()},
                                        {"line_place", schema_rows<Report::LinePlace>()},
+                                       {"track", schema_rows<Report::Track>()},
+                                       {"track_place", schema_rows<Report::TrackPlace>()},
+                                       {"noise_class", schema_rows<Report::NoiseClass>()},
+                                       {"registration", schema_rows<Report::Registration>()},
                                        {"hole", placed_rows<Report::Hole>()},
                                        {"sections", changed(schema_rows<Report::Sections>(), never_null)},
                                        {"level", schema_rows<Report::Level>()},

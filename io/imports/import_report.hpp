@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -106,6 +107,37 @@ struct ImportReport {
            given_rms = std::numeric_limits<double>::quiet_NaN();  ///< that it lies off the line that was given [m]
     std::vector<LinePlace> places;                                ///< by x
   };
+  /// Across a track, at a place along its right rail.
+  struct TrackPlace {
+    double x = 0.0;                                           ///< along the right rail's surface [m]
+    Vec3 place = Vec3::Zero();                                ///< between the tops of the heads, in the cloud [m]
+    double gauge = std::numeric_limits<double>::quiet_NaN();  ///< 0 to 14 mm below them [m]
+    double cant = std::numeric_limits<double>::quiet_NaN();   ///< left rail above the right one, if `up` was given [m]
+  };
+  /// The track of which this is the right rail.
+  struct Track {
+    double gauge_least = std::numeric_limits<double>::quiet_NaN(),
+           gauge_greatest = std::numeric_limits<double>::quiet_NaN(),
+           gauge_mean = std::numeric_limits<double>::quiet_NaN();  ///< of the places [m]
+    std::vector<TrackPlace> places;                                ///< by x
+    std::shared_ptr<const ImportReport> left;                      ///< the same report of the left rail
+  };
+  /// Points that scatter otherwise than usual: of a pass, at an angle to the beam, with an intensity.
+  struct NoiseClass {
+    std::string name;  ///< in words: "pass 2"
+    std::size_t points = 0;
+    double factor = 1.0;  ///< of their standard deviation over the usual one at their place
+  };
+  /// A scan that was laid on others before all else.
+  struct Registration {
+    int pass = 0;
+    std::size_t points = 0;
+    double overlap = 0.0;                            ///< part of its surface that others have seen, too
+    double apart = 0.0;                              ///< from them where they overlap: standard deviation [m]
+    Vec3 shift = Vec3::Zero(), turn = Vec3::Zero();  ///< that it was moved by, about its middle [m], [rad]
+    double shift_error = 0.0, turn_error = 0.0;      ///< standard errors, of what the overlap determines [m], [rad]
+    std::size_t open = 0;                            ///< directions of six that it does not determine
+  };
   /// The surface against what it should be.
   struct Truth {
     std::string file;        ///< as it was named, without folders; what `treadmark scan` wrote, or a surface
@@ -141,9 +173,13 @@ struct ImportReport {
   std::vector<Pass> passes;
   double pass_before = 0.0, pass_after = 0.0;  ///< rms distance of passes where they overlap [m]
 
+  std::optional<Track> track;  ///< only of the right rail of two
+  std::vector<Registration> registrations;
+
   // points
   double spacing = 0.0, gap_a = 0.0, gap_s = 0.0;  ///< mean distance of points; usual distances along and across [m]
   double noise = 0.0;                              ///< standard deviation of the points [m]
+  std::vector<NoiseClass> noise_classes;           ///< where it differs enough to count
   double area = 0.0, hole_area = 0.0, hole_limit = 0.0;
   std::vector<Hole> holes;  ///< largest first
   // points in cross-sections that became slices; the fit below then serves pictures, damage and zero alone
@@ -237,6 +273,14 @@ template <>
 std::span<const Column<io::ImportReport::Line>> columns();
 template <>
 std::span<const Column<io::ImportReport::LinePlace>> columns();
+template <>
+std::span<const Column<io::ImportReport::Track>> columns();
+template <>
+std::span<const Column<io::ImportReport::TrackPlace>> columns();
+template <>
+std::span<const Column<io::ImportReport::NoiseClass>> columns();
+template <>
+std::span<const Column<io::ImportReport::Registration>> columns();
 template <>
 std::span<const Column<ErrorSize>> columns();
 

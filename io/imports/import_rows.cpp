@@ -22,6 +22,10 @@ using Distances = io::ImportReport::Distances;
 using Kept = io::ImportReport::Sections;
 using Line = io::ImportReport::Line;
 using LinePlace = io::ImportReport::LinePlace;
+using Track = io::ImportReport::Track;
+using TrackPlace = io::ImportReport::TrackPlace;
+using NoiseClass = io::ImportReport::NoiseClass;
+using Registration = io::ImportReport::Registration;
 
 constexpr FileUnit kUm{"\u00b5m", 1e6, "m"}, kMm2{"mm\u00b2", 1e6, "m2"}, kCubicMm{"mm\u00b3", 1e9, "m3"},
     kMrad{"mrad", 1e3, "rad"}, kPerM{"1/m"}, kMradPerM{"mrad/m", 1e3, "rad/m"};
@@ -117,6 +121,33 @@ constexpr Column<LinePlace> kLinePlaces[] = {
     {"roll_mrad", kMrad, "", of<&LinePlace::roll>(), "right side low: from level where placement.up was given, else from the first place"},
     {"gradient_mrad", kMrad, "", of<&LinePlace::gradient>(), "up, where placement.up was given"}};
 
+constexpr Column<Track> kTrack[] = {
+    {"gauge_least_mm", kMm, "", of<&Track::gauge_least>(), "of the places"},
+    {"gauge_greatest_mm", kMm, "", of<&Track::gauge_greatest>()},
+    {"gauge_mean_mm", kMm, "", of<&Track::gauge_mean>()}};
+
+constexpr Column<TrackPlace> kTrackPlaces[] = {
+    {"x_mm", kMm, "", of<&TrackPlace::x>(), "along the right rail", 0, "x"},
+    {"place_x_mm", kMm, "", part<&TrackPlace::place, 0>(), "between the tops of both heads, in the cloud"},
+    {"place_y_mm", kMm, "", part<&TrackPlace::place, 1>()},
+    {"place_z_mm", kMm, "", part<&TrackPlace::place, 2>()},
+    {"gauge_mm", kMm, "", of<&TrackPlace::gauge>(), "least distance of the heads down to 14 mm below their tops; null where one was not scanned so far down", 0, "gauge"},
+    {"cant_mm", kMm, "", of<&TrackPlace::cant>(), "how much higher the left rail is, where placement.up was given", 0, "cant"}};
+
+constexpr Column<NoiseClass> kNoiseClasses[] = {
+    {"class", kOne, "", of<&NoiseClass::name>(), "pass, angle to the beam or intensity", 0, "of"},
+    {"points", kOne, "", of<&NoiseClass::points>(), "", 0, "points"},
+    {"factor", kOne, "", of<&NoiseClass::factor>(), "of their standard deviation over the usual one at their place", 0, "times the noise"}};
+
+constexpr Column<Registration> kRegistrations[] = {
+    {"pass", kOne, "", of<&Registration::pass>(), "", 0, "scan"},
+    {"points", kOne, "", of<&Registration::points>(), "", 0, "points"},
+    {"overlap", kOne, "", of<&Registration::overlap>(), "part of its surface that others have seen, too", 0, "overlap"},
+    {"apart_um", kUm, "", of<&Registration::apart>(), "from these, after it was moved: standard deviation", 0, "apart"},
+    {"shift_error_um", kUm, "", of<&Registration::shift_error>(), "standard error, of what the overlap determines", 0, "error of shift"},
+    {"turn_error_mrad", kMrad, "", of<&Registration::turn_error>(), "", 0, "error of turn"},
+    {"open", kOne, "", of<&Registration::open>(), "directions of six that the overlap does not determine", 0, "left open"}};
+
 constexpr Column<ErrorSize> kErrors[] = {
     {"rms_um", kUm, "", of<&ErrorSize::rms>()},
     {"largest_um", kUm, "", of<&ErrorSize::largest>()}};
@@ -134,6 +165,10 @@ template <> std::span<const Column<Distances>> columns() { return kDistances; }
 template <> std::span<const Column<Kept>> columns() { return kKept; }
 template <> std::span<const Column<Line>> columns() { return kLine; }
 template <> std::span<const Column<LinePlace>> columns() { return kLinePlaces; }
+template <> std::span<const Column<Track>> columns() { return kTrack; }
+template <> std::span<const Column<TrackPlace>> columns() { return kTrackPlaces; }
+template <> std::span<const Column<NoiseClass>> columns() { return kNoiseClasses; }
+template <> std::span<const Column<Registration>> columns() { return kRegistrations; }
 template <> std::span<const Column<ErrorSize>> columns() { return kErrors; }
 // clang-format on
 

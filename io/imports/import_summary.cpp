@@ -115,6 +115,13 @@ void add_placement(Page& page, const ImportReport& report) {
       page.row("", fmt::format("{} off the given line at most, {} rms", length_text(report.line->given_largest),
                                length_text(report.line->given_rms)));
   }
+  for (const ImportReport::Registration& one : report.registrations)
+    page.row(
+        fmt::format("scan {} laid on others", one.pass),
+        fmt::format("moved by {} and {} mrad (standard errors {}, {} mrad), overlap {}, {} apart there{}",
+                    length_text(one.shift.norm()), shown_number(1e3 * one.turn.norm(), 3), length_text(one.shift_error),
+                    shown_number(1e3 * one.turn_error, 4), percent(one.overlap), length_text(one.apart),
+                    one.open > 0 ? fmt::format("; {} of six directions are not told", one.open) : std::string()));
   if (report.passes.size() > 1)
     page.row("passes", fmt::format("{}, {} apart before and {} after they were joined (rms)", report.passes.size(),
                                    length_text(report.pass_before), length_text(report.pass_after)));
@@ -151,6 +158,9 @@ void add_fit(Page& page, const ImportReport& report) {
     page.row("distance of points", fmt::format("{} (along {}, across {})", length_text(report.spacing),
                                                length_text(report.gap_a), length_text(report.gap_s)));
     page.row("noise", length_text(report.noise));
+    for (const ImportReport::NoiseClass& one : report.noise_classes)
+      page.row(
+          "", fmt::format("{} times that: {} ({} points)", shown_number(one.factor, 3), one.name, grouped(one.points)));
   }
   if (report.sections) {
     const ImportReport::Sections& s = *report.sections;
@@ -178,6 +188,21 @@ void add_fit(Page& page, const ImportReport& report) {
              fmt::format("{} of {} points", length_text(report.held_out_rms), grouped(report.held_out_points)));
   page.row("error of the surface", surface_error_text(report));
   add_holes(page, report);
+}
+
+void add_track(Page& page, const ImportReport& report) {
+  if (!report.track) return;
+  const ImportReport::Track& track = *report.track;
+  page.heading("track, of which this is the right rail");
+  page.row("gauge", fmt::format("{} to {} mm, {} mm in the mean of {} places", shown_number(1e3 * track.gauge_least, 2),
+                                shown_number(1e3 * track.gauge_greatest, 2), shown_number(1e3 * track.gauge_mean, 2),
+                                track.places.size()));
+  const auto [least, greatest] = std::minmax_element(track.places.begin(), track.places.end(),
+                                                     [](const auto& a, const auto& b) { return a.cant < b.cant; });
+  page.row("cant", track.places.empty() || std::isnan(least->cant)
+                       ? std::string("not known without placement.up")
+                       : fmt::format("{} to {} mm, left rail above right rail", shown_number(1e3 * least->cant, 2),
+                                     shown_number(1e3 * greatest->cant, 2)));
 }
 
 void add_damage(Page& page, const ImportReport& report) {
@@ -240,12 +265,14 @@ std::string import_summary(const ImportReport& report) {
   if (!report.from_map) {
     add_points(page, report);
     add_placement(page, report);
+    add_track(page, report);
   }
   add_fit(page, report);
   add_damage(page, report);
   add_truth(page, report);
   add_outputs(page, report);
-  return page.take();
+  if (report.track) page.heading("the left rail");
+  return page.take() + (report.track ? import_summary(*report.track->left) : std::string());
 }
 
 }  // namespace treadmark::io

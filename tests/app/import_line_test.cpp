@@ -166,6 +166,24 @@ radius_m = RADIUS
   EXPECT_THAT(r.err, HasSubstr("the layout is 5.00 m long"));
 }
 
+TEST_F(ImportAlongALine, JumpsOfAGivenLineAreNamed) {
+  circle(300.0, 0.0);
+  scan("rail.ply", "0,6000", "150000");
+  std::string track;
+  for (int k = 0; k <= 12; ++k) {
+    const double s = 0.5 * k, y = 300.0 * (1.0 - std::cos(s / 300.0)) + (k > 5 ? 0.7 : 0.0);
+    track += std::to_string(1e3 * s) + ' ' + std::to_string(1e3 * y) + " 0\n";
+  }
+  input.write("track.txt", track);
+  const auto r = import({path("rail.ply"), "-o", path("found.slcs"), "--unit", "mm", "--json", path("found.json"),
+                         "--set", "placement.line=" + path("track.txt"), "--set", "fit.errors=false"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const Json found = json("found.json");
+  EXPECT_THAT(found["warnings"].dump(), HasSubstr("line_jump: "));
+  EXPECT_THAT(found["warnings"].dump(), HasSubstr("0.7 m after 2.50 m"));
+  EXPECT_TRUE(found["damage"].empty()) << "the line that is found is that of the points";
+}
+
 TEST_F(ImportAlongALine, AStraightRailStaysAsItWas) {
   circle(1e5, 0.0);  // the sagitta of 0.5 m is 0.3 um
   scan("rail.ply", "-250,250", "150000");

@@ -110,6 +110,10 @@ class Inputs:
             ("pass2.las", "rail", ("--range-mm", "-20,60")),
         ):
             self.treadmark("scan", "wheel-flat.toml", "-o", name, "--body", body, "--points", "30000", *options)
+        self.treadmark("scan", "wheel-flat.toml", "-o", "one.xyz", "--body", "rail", "--points", "25000", "--range-mm=-600,600")
+        rail = [[float(word) for word in line.split()] for line in (folder / "one.xyz").read_text().splitlines()[1:]]
+        both = [f"{x} {beside - y} {-z}\n" for beside in (0, 1505) for x, y, z in rail]  # z is up
+        (folder / "track.xyz").write_text("# x[mm] y[mm] z[mm]\n" + "".join(both))
         self.treadmark("convert", "case.toml", "scan.slcs", "--body", "rail", "--range-mm=-300,300", "--resolution", "2")
         for run in ("run", "a", "b", "c"):
             self.treadmark("simulate", "examples/flat-at-speed.toml", "-o", f"out/{run}", "--set", "simulation.distance_m=0.05")

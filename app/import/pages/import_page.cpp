@@ -128,6 +128,9 @@ std::vector<Block> placement_of(const io::ImportReport& report) {
   if (report.body != Body::wheel)
     std::erase_if(facts.entries, [](const auto& entry) { return entry.first == "Nominal radius"; });
   std::vector<Block> out{std::move(facts)};
+  if (!report.registrations.empty())
+    out.emplace_back(
+        report::table_of("registrations", "Scans that were laid on each other first.", report.registrations));
   if (Table passes = pass_table(report); passes.rows.size() > 1) {
     out.emplace_back(
         Paragraph{fmt::format("Passes lay {} apart where they overlap (rms), and {} after they were moved.",
@@ -173,6 +176,18 @@ Section deviation_section(const io::ImportReport& report) {
   return section;
 }
 
+/// Gauge and cant of the track of which the rail is the right one.
+Section track_section(const io::ImportReport& report) {
+  Section section{"track", "Track"};
+  if (!report.track) return section;
+  section.blocks.emplace_back(Paragraph{
+      "This rail is the right one of a track; the folder left-rail has the page of the left one. Gauge: least "
+      "distance of the heads down to 14 mm below their tops; cant: left rail above right rail."});
+  section.blocks.emplace_back(
+      report::table_of("track-places", "Gauge and cant by place along the right rail.", report.track->places, 5));
+  return section;
+}
+
 Section fit_section(const io::ImportReport& report, OptionalFiles& files) {
   Section section{"fit", "Fit"};
   if (const auto& kept = report.sections)
@@ -192,6 +207,10 @@ Section fit_section(const io::ImportReport& report, OptionalFiles& files) {
                               in_um(report.errors->rms), in_um(report.errors->largest))});
   append(section.blocks,
          map_figure(report.noise_map, report.body, {"noise-map", "Noise", "standard deviation", "µm", 1e6}));
+  if (!report.noise_classes.empty())
+    section.blocks.emplace_back(
+        report::table_of("noise-classes", "Points that scatter otherwise than usual at their place, and count so.",
+                         report.noise_classes));
   section.blocks.emplace_back(level_table(report));
   // its maps and counts are shown above
   if (report.residual.value.empty()) append(section.blocks, files.picture("residual.svg", "residual", "Residuals"));
@@ -215,7 +234,7 @@ Page import_page(const io::ImportReport& report, std::string document, const std
   overview.blocks.emplace_back(import_facts(report));
   overview.blocks.emplace_back(input_table(report));
   Section surface = surface_section(report, files), points = points_section(report, files),
-          deviation = deviation_section(report), fit = fit_section(report, files),
+          deviation = deviation_section(report), fit = fit_section(report, files), track = track_section(report),
           truth{"truth", "Error against the reference surface", truth_blocks(report)};
   Section output{"outputs", "Outputs", {output_table(report)}}, steps{"steps", "Steps"},
       settings{"settings", "Settings"}, summary{"summary", "Summary"};
@@ -228,8 +247,8 @@ Page import_page(const io::ImportReport& report, std::string document, const std
                          note.end());
 
   Section placement{"placement", "Placement", placement_of(report)};
-  for (Section* section :
-       {&overview, &truth, &surface, &deviation, &points, &placement, &fit, &output, &steps, &settings, &summary})
+  for (Section* section : {&overview, &track, &truth, &surface, &deviation, &points, &placement, &fit, &output, &steps,
+                           &settings, &summary})
     if (!section->blocks.empty()) page.sections.push_back(std::move(*section));
   return page;
 }

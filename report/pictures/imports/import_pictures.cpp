@@ -194,6 +194,7 @@ void write_import_report(const std::string& folder, const io::ImportReport& repo
   write_file(place / "summary.txt", io::import_summary(report));
   write_file(place / "times.json", io::import_times_json(report));
   write_file(place / "report.json", io::import_json(report, false));
+  if (report.track) write_import_report((place / kLeftRail).string(), *report.track->left);
 }
 
 }  // namespace treadmark::pictures

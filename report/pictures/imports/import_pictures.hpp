@@ -24,9 +24,12 @@ std::string import_residual_svg(const io::ImportReport& report);
 /// "scan.ply and 2 more, wheel, 1 234 567 points, unit mm (given)".
 std::string import_heading(const io::ImportReport& report);
 
+/// The folder of the left rail of a track within that of the right one.
+inline constexpr const char* kLeftRail = "left-rail";
+
 /// Writes report.json, times.json, summary.txt, settings.toml, maps.h5 and the pictures before.svg, removed.svg,
-/// fitted.svg, residual.svg into a folder, report.json last. Not to be called from two threads at once (HDF5). Errors:
-/// Error(configuration) if a file cannot be written.
+/// fitted.svg, residual.svg into a folder, report.json last; of the left rail of a track into a folder in it. Not to be
+/// called from two threads at once (HDF5). Errors: Error(configuration) if a file cannot be written.
 void write_import_report(const std::string& folder, const io::ImportReport& report);
 
 }  // namespace treadmark::pictures
