@@ -51,12 +51,17 @@ MixedPoints find_mixed_points(const PointCloud& cloud) {
   out.in_order = next < kOrdered * median_of(any);
   if (!out.in_order) return out;
   out.of_point.assign(count, 0);
-  for (std::size_t i = 0; i + 1 < count; ++i) {
-    const auto step = step_between(cloud, i, i + 1);
-    if (!step || step->angle > kNextBeams * next || step->along < kFar * usual ||
-        step->along < kAlongBeam * step->apart)
+  // more such steps in a row are a surface that is seen at a grazing angle
+  constexpr std::size_t kMostInARow = 3;
+  for (std::size_t from = 0, i = 0; i < count; ++i) {
+    const auto step = i + 1 < count ? step_between(cloud, i, i + 1) : std::nullopt;
+    if (step && step->angle <= kNextBeams * next && step->along >= kFar * usual &&
+        step->along >= kAlongBeam * step->apart)
       continue;
-    out.of_point[i] = out.of_point[i + 1] = 1;
+    if (i > from && i - from <= kMostInARow)
+      std::fill(out.of_point.begin() + static_cast<std::ptrdiff_t>(from),
+                out.of_point.begin() + static_cast<std::ptrdiff_t>(i + 1), std::uint8_t{1});
+    from = i + 1;
   }
   out.count = static_cast<std::size_t>(std::count(out.of_point.begin(), out.of_point.end(), std::uint8_t{1}));
   return out;

@@ -18,7 +18,8 @@ struct MixedPoints {
 
 /// Points between two surfaces, which a scanner sees where its spot meets both, and the edges beside them: the step to
 /// the point before or behind, one beam farther, leads along the beam (within 10 degrees) and is far longer than steps
-/// along it usually are. Needs the places of the scanner; points without are left. Deterministic.
+/// along it usually are, and no more than three such steps follow each other, as on a surface that is seen at a grazing
+/// angle. Needs the places of the scanner; points without are left. Deterministic.
 MixedPoints find_mixed_points(const PointCloud& cloud);
 
 }  // namespace treadmark::scans

@@ -45,6 +45,23 @@ TEST(MixedPoints, LieAlongTheBeam) {
       EXPECT_EQ(found.of_point[static_cast<std::size_t>(row * kScanBeams + kScanBeams / 2 + off)], 1) << row;
 }
 
+TEST(MixedPoints, AreNoSurfaceSeenAtAGrazingAngle) {
+  PointCloud cloud = two_planes();
+  // in the middle of each row a face that leads along the beam, nearly
+  const Vec3 station = cloud.stations.at(0);
+  constexpr int kFace = 8;
+  constexpr double kDeep = 0.06;
+  for (int row = 0; row < kScanRows; ++row)
+    for (int k = 0; k < kFace; ++k) {
+      Vec3& p = cloud.points[static_cast<std::size_t>(row * kScanBeams + kScanBeams / 4 + k)];
+      p = station + (1.0 + kDeep * k / 5.0) * (p - station);
+    }
+  const MixedPoints found = find_mixed_points(cloud);
+  for (int row = 0; row < kScanRows; ++row)
+    for (int k = 1; k + 1 < kFace; ++k)
+      EXPECT_EQ(found.of_point[static_cast<std::size_t>(row * kScanBeams + kScanBeams / 4 + k)], 0) << row << ' ' << k;
+}
+
 TEST(MixedPoints, NeedTheOrderAndTheStation) {
   PointCloud cloud = two_planes();
   cloud.stations.clear();
