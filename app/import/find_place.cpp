@@ -512,7 +512,20 @@ void fill_line(const PlacedScan& scan, const io::ImportSettings& settings, io::I
   report.line = std::move(out);
 }
 
+namespace {
+
+void refuse_map_coordinates(const Clouds& clouds, const io::ImportSettings& settings) {
+  if (settings.scan.unit == "auto" && !clouds.reference.empty())
+    throw Error(ErrorKind::input_data,
+                "the coordinates are those of a map: the file names the coordinate system " + clouds.reference, {},
+                "if the points are those of one wheel or rail alone, say the unit of the map with --unit; else cut it "
+                "out and export it in the scanner's own coordinates");
+}
+
+}  // namespace
+
 SeparateRails separate_rails(Clouds both, const io::ImportSettings& settings, io::ImportReport& report) {
+  refuse_map_coordinates(both, settings);
   scans::PlaceSettings how;
   how.body = Body::rail;
   how.up = direction_of(settings.placement.up);
@@ -559,11 +572,7 @@ SeparateRails separate_rails(Clouds both, const io::ImportSettings& settings, io
 
 PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportReport& report, StepClock& clock) {
   const io::ImportSettings& settings = request.settings;
-  if (settings.scan.unit == "auto" && !clouds.reference.empty())
-    throw Error(ErrorKind::input_data,
-                "the coordinates are those of a map: the file names the coordinate system " + clouds.reference, {},
-                "if the points are those of one wheel or rail alone, say the unit of the map with --unit; else cut it "
-                "out and export it in the scanner's own coordinates");
+  refuse_map_coordinates(clouds, settings);
   PlacedScan scan;
   scan.body = body_of(request);
   read_nominal(request, scan);
