@@ -53,7 +53,7 @@ endforeach()
 set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS library)
 # For programs in C++, which link static libraries.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libfmt-dev, nlohmann-json3-dev, libtomlplusplus-dev, zlib1g-dev")
-foreach(part IN ITEMS embree hdf5 tbb fftw cgal expat)
+foreach(part IN ITEMS embree hdf5 tbb fftw cgal expat nlopt)
   string(TOUPPER "${part}" upper)
   if(TREADMARK_HAVE_${upper})
     string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", ${TREADMARK_${upper}_PACKAGES}")

@@ -54,6 +54,8 @@ treadmark_part(report_scripts TREADMARK_REPORT_SCRIPTS "report scripts" "nodejs 
 treadmark_part(python TREADMARK_PYTHON "Python" "pybind11-dev, python3-dev and python3-numpy"
   "The package treadmark for Python, with pybind11 and NumPy")
 treadmark_part(fmu TREADMARK_FMU "FMUs" "libzip-dev" "Export as functional mock-up units (fmu), with libzip")
+treadmark_part(nlopt TREADMARK_WITH_NLOPT "NLopt" "libnlopt-dev" "Profiles, grinding and repairs by gradients (design), with NLopt (LGPL)"
+  NEEDS vehicle)
 
 # treadmark_missing(<part>): the error of a package that was not found.
 function(treadmark_missing part)

@@ -30,6 +30,7 @@ ALLOWED = {
     "detection": ["core", "model", "detection"],
     "solvers/kalker": ["core", "model", "solvers/kalker"],
     "solvers/wheelrail": ["core", "model", "detection", "solvers/kalker", "solvers/wheelrail"],
+    "solvers/optimisation": ["core", "solvers/optimisation"],
     "solvers/vehicle": ["core", "model", "detection", "solvers/kalker", "solvers/wheelrail", "solvers/vehicle"],
     "app": ["core", "model", "io", "report", "backends", "analysis", "scans", "detection", "solvers", "app"],
     "interfaces": ["core", "model", "io", "report", "backends", "analysis", "scans", "detection", "solvers", "app", "interfaces"],
@@ -57,6 +58,7 @@ HEAVY = {
     r"openvdb/.*": "folder",
     r"CGAL/.*": "scans/cgal/",
     r"nanoflann\.hpp": "all",
+    r"nlopt\.h(pp)?": "all",
     r"(oneapi/)?tbb(/.*|\.h)": "all",
     r"nlohmann/.*": "io/tables/number.hpp",  # io::Json is its only name
     r"treadmark/io/tables/(number|json_of)\.hpp": "source",

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/optimisation/minimise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <memory>
+
+#include <nlopt.h>
+
+namespace treadmark::optimisation {
+namespace {
+
+constexpr double kAllowed = 1e-6;  ///< of a constraint
+
+struct SearchState {
+  const Minimisation& problem;
+  nlopt_opt optimiser;
+  std::vector<double> point;  ///< that was asked for last
+  std::optional<PointValues> values;
+  std::exception_ptr thrown;
+};
+
+/// Null where there is nothing, and once something was thrown. Objective and constraints are asked for one after the
+/// other.
+const PointValues* values_at(SearchState& s, unsigned n, const double* x) noexcept {
+  if (s.thrown) return nullptr;
+  try {
+    if (!std::equal(s.point.begin(), s.point.end(), x, x + n)) {
+      s.point.assign(x, x + n);
+      s.values = s.problem.at(s.point);
+    }
+    return s.values ? &*s.values : nullptr;
+  } catch (...) {
+    s.thrown = std::current_exception();
+    nlopt_force_stop(s.optimiser);
+    return nullptr;
+  }
+}
+
+double objective_at(unsigned n, const double* x, double* gradient, void* state) {
+  const PointValues* values = values_at(*static_cast<SearchState*>(state), n, x);
+  if (values == nullptr) return HUGE_VAL;
+  if (gradient != nullptr) std::copy(values->gradient.begin(), values->gradient.end(), gradient);
+  return values->objective;
+}
+
+void constraints_at(unsigned m, double* result, unsigned n, const double* x, double* gradient, void* state) {
+  const PointValues* values = values_at(*static_cast<SearchState*>(state), n, x);
+  if (values == nullptr) {
+    std::fill_n(result, m, HUGE_VAL);
+    if (gradient != nullptr) std::fill_n(gradient, std::size_t{m} * n, 0.0);
+    return;
+  }
+  std::copy(values->constraints.begin(), values->constraints.end(), result);
+  if (gradient != nullptr) std::copy(values->jacobian.begin(), values->jacobian.end(), gradient);
+}
+
+}  // namespace
+
+Minimum minimise(const Minimisation& problem) {
+  const auto algorithm = problem.method == Method::mma ? NLOPT_LD_MMA : NLOPT_LD_SLSQP;
+  const auto n = static_cast<unsigned>(problem.start.size()), m = static_cast<unsigned>(problem.constraints);
+  const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> optimiser(nlopt_create(algorithm, n), nlopt_destroy);
+  SearchState state{problem, optimiser.get(), {}, {}, {}};
+  nlopt_set_lower_bounds(optimiser.get(), problem.lower.data());
+  nlopt_set_upper_bounds(optimiser.get(), problem.upper.data());
+  nlopt_set_min_objective(optimiser.get(), objective_at, &state);
+  const std::vector<double> allowed(m, kAllowed);
+  if (m > 0) nlopt_add_inequality_mconstraint(optimiser.get(), m, constraints_at, &state, allowed.data());
+  nlopt_set_ftol_rel(optimiser.get(), problem.tolerance);
+  nlopt_set_xtol_abs1(optimiser.get(), problem.tolerance);
+
+  Minimum out;
+  out.point = problem.start;
+  for (std::size_t i = 0; i < out.point.size(); ++i)
+    out.point[i] = std::clamp(out.point[i], problem.lower[i], problem.upper[i]);
+  double least = 0.0;
+  const nlopt_result ended = nlopt_optimize(optimiser.get(), out.point.data(), &least);
+  if (state.thrown) std::rethrow_exception(state.thrown);
+  out.report.iterations = nlopt_get_numevals(optimiser.get());
+  if (ended > 0) return out;
+  out.report.status = ended == NLOPT_ROUNDOFF_LIMITED ? Status::not_converged : Status::failed;
+  const char* said = nlopt_get_errmsg(optimiser.get());
+  out.report.message = ended == NLOPT_ROUNDOFF_LIMITED ? "no better point is found along the gradients"
+                       : said != nullptr               ? said
+                                                       : "no point keeps the constraints";
+  return out;
+}
+
+}  // namespace treadmark::optimisation
