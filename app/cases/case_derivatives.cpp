@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -68,7 +69,7 @@ const ShapeKey* shape_key(std::string_view key) {
 struct Prepared {
   io::WheelRailCase input;
   wheelrail::Problem problem;
-  wheelrail::Geometry geometry;
+  wheelrail::Geometry geometry, given;  ///< with and without the heights that are added
 };
 
 constexpr const char* kNothingFollows = "contact does not follow from it";
@@ -90,8 +91,13 @@ void for_each_number(const io::CaseResult& result, Visit&& visit) {
 
 class CaseTangents {
  public:
-  CaseTangents(const io::Case& c, SurfaceStore& store, const SampledRegions& regions)
-      : case_(c), store_(store), regions_(regions), base_(std::make_shared<const Prepared>(prepared(c))) {}
+  CaseTangents(const io::Case& c, SurfaceStore& store, const SampledRegions& regions,
+               const SectionHeights* added = nullptr)
+      : case_(c),
+        store_(store),
+        regions_(regions),
+        added_(added),
+        base_(std::make_shared<const Prepared>(prepared(c))) {}
 
   io::CaseDerivatives by(const std::vector<std::string>& keys, std::span<const SectionHeights> heights = {}) {
     io::CaseDerivatives out;
@@ -129,10 +135,19 @@ class CaseTangents {
 
   Prepared prepared(const io::Case& c) {
     constexpr double kExact = 1e-9;  // what is left open is a part of every derivative
-    Prepared out{std::get<io::WheelRailCase>(c.content), {}, {}};
+    Prepared out{std::get<io::WheelRailCase>(c.content), {}, {}, {}};
     out.input.subsurface = {};
     out.input.history = HistoryUse::start;
-    out.geometry = geometry_of(out.input, store_, regions_);
+    out.geometry = out.given = geometry_of(out.input, store_, regions_);
+    if (added_ != nullptr) {
+      auto& surface = added_->facing == Facing::up ? out.geometry.rail : out.geometry.wheel;
+      std::shared_ptr<const Surface>& known = with_added_[surface];
+      if (known == nullptr) {
+        const wheelrail::Geometry made = with_heights(out.given, *added_, 1.0);
+        known = added_->facing == Facing::up ? made.rail : made.wheel;
+      }
+      surface = known;
+    }
     out.problem = to_problem(out.input, out.geometry.round_wheel);
     out.problem.solver.eps = std::min(out.problem.solver.eps, kExact);
     return out;
@@ -199,8 +214,11 @@ class CaseTangents {
     const double step =
         std::clamp(kCurvature * heights.step * heights.step, kLeast, kMost) / std::max(std::abs(*low), std::abs(*high));
     const auto beside = [&](double factor) {
+      SectionHeights all = heights;
+      for (std::size_t k = 0; k < all.values.size(); ++k)
+        all.values[k] = factor * all.values[k] + (added_ != nullptr ? added_->values[k] : 0.0);
       return std::make_shared<const Prepared>(
-          Prepared{base_->input, base_->problem, with_heights(base_->geometry, heights, factor)});
+          Prepared{base_->input, base_->problem, with_heights(base_->given, all, 1.0), base_->given});
     };
     out.parameters.push_back({"", 0.0, true, {}});
     const Sides sides{beside(step), beside(-step), step};
@@ -215,8 +233,9 @@ class CaseTangents {
   }
 
   static void name_numbers(const io::CaseResult& here, io::CaseDerivatives& out) {
-    for_each_number(here, [&](std::string name, const auto&, const auto&) {
-      out.numbers.push_back({std::move(name), std::vector<double>(out.parameters.size(), kNaN)});
+    for_each_number(here, [&](std::string name, const auto& row, const auto& of) {
+      out.numbers.push_back({std::move(name), row.unit.in_file(row.access.get(of(here))),
+                             std::vector<double>(out.parameters.size(), kNaN)});
     });
     const io::PatchResult& patch = here.patches.front();
     const auto rows = io::quantities<io::PatchResult>();
@@ -255,6 +274,9 @@ class CaseTangents {
   const io::Case& case_;
   SurfaceStore& store_;
   const SampledRegions& regions_;
+  const SectionHeights* added_;
+  /// Surfaces with them, by those without: of one surface always the same one.
+  std::map<std::shared_ptr<const Surface>, std::shared_ptr<const Surface>> with_added_;
   std::shared_ptr<const Prepared> base_;
   std::vector<Asked> asked_;
 };
@@ -305,8 +327,9 @@ wheelrail::Geometry with_heights(wheelrail::Geometry geometry, const SectionHeig
 }
 
 io::CaseDerivatives derivatives_by(const io::Case& c, SurfaceStore& store, const SampledRegions& regions,
-                                   const std::vector<std::string>& keys, std::span<const SectionHeights> heights) {
-  io::CaseDerivatives out = with_reason([&] { return CaseTangents(c, store, regions).by(keys, heights); });
+                                   const std::vector<std::string>& keys, std::span<const SectionHeights> heights,
+                                   const SectionHeights* added) {
+  io::CaseDerivatives out = with_reason([&] { return CaseTangents(c, store, regions, added).by(keys, heights); });
   for (std::size_t k = 0; k < out.parameters.size(); ++k) {
     if (out.parameters[k].left_out != kNothingFollows) continue;
     out.parameters[k].left_out.clear();

@@ -38,9 +38,11 @@ struct SectionHeights {
 wheelrail::Geometry with_heights(wheelrail::Geometry geometry, const SectionHeights& heights, double factor);
 
 /// Derivatives of one case by keys, none: no usual ones, and after them by the factors of heights. Where contact does
-/// not follow from a key they are 0.
+/// not follow from a key they are 0. added: heights that its surface has already, of the same body and places; null:
+/// none.
 io::CaseDerivatives derivatives_by(const io::Case& c, SurfaceStore& store, const SampledRegions& regions,
-                                   const std::vector<std::string>& keys, std::span<const SectionHeights> heights);
+                                   const std::vector<std::string>& keys, std::span<const SectionHeights> heights,
+                                   const SectionHeights* added = nullptr);
 /// The numbers that are known of a result and may have derivatives, by their names in JSON and in their units.
 std::vector<std::pair<std::string, double>> smooth_numbers(const io::CaseResult& result);
 

@@ -200,6 +200,7 @@ struct CaseDerivatives {
   /// Of what.
   struct Number {
     std::string name;        ///< in JSON, of a patch "patch_1.pmax_MPa"
+    double value = 0.0;      ///< in the unit of its name
     std::vector<double> by;  ///< each parameter, in the units of both names; NaN: left out
   };
   std::vector<Parameter> parameters;
