@@ -31,6 +31,7 @@ FileKind kind_of(const CaseTable& top) {
   const auto has = [&](std::string_view key) { return entry_of(top, key) != nullptr; };
   if (has("study")) return FileKind::study;
   if (has("evolve")) return FileKind::evolution;
+  if (has("design")) return FileKind::design;
   if (has("simulation")) return FileKind::simulation;
   if (has("vehicle")) return FileKind::vehicle;
   const CaseEntry* track = entry_of(top, "track");

@@ -12,6 +12,7 @@ namespace treadmark::io {
 enum class FileKind {
   study,       ///< [study], whatever its base is
   evolution,   ///< [evolve]
+  design,      ///< [design]
   simulation,  ///< [simulation]
   vehicle,     ///< [vehicle]
   track,       ///< [track] with a name, which the track of a case has not

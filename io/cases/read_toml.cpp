@@ -330,6 +330,8 @@ void refuse_other_kinds(const CaseTable& document, const std::filesystem::path& 
       return refuse("a study", "use treadmark sweep");
     case FileKind::evolution:
       return refuse("an evolution", "use treadmark evolve");
+    case FileKind::design:
+      return refuse("a design", "use treadmark design");
     case FileKind::simulation:
       return refuse("a simulation", "use treadmark simulate");
     default:

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/simulations/read_evolution.hpp"
 
-#include <numeric>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -101,19 +100,6 @@ EvolvingBody read_body(const TableOf<EvolveInput>& evolve, EvolvingBody EvolveIn
   return out;
 }
 
-std::vector<double> checked_weights(const TableOf<EvolveInput>& evolve, std::vector<double> weights, std::size_t runs) {
-  const auto member = [](auto& i) -> auto& { return i.file.weights; };
-  const std::string path = evolve.path_of(member);
-  if (weights.empty()) weights.assign(runs, 1.0);
-  if (weights.size() != runs)
-    evolve.refuse(member, fmt::format("{} has {} values for {} positions", path, weights.size(), runs),
-                  "one for each position, in the order of the product of evolve.vary");
-  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  if (!(sum > 0.0)) evolve.refuse(member, fmt::format("{} are all zero", path));
-  for (double& weight : weights) weight /= sum;
-  return weights;
-}
-
 }  // namespace
 
 EvolutionFile read_evolution_file(const std::filesystem::path& file, std::span<const std::string> overrides) {
@@ -144,7 +130,8 @@ EvolutionFile read_evolution_file(const std::filesystem::path& file, std::span<c
   };
   without_limits(&EvolutionFile::max_depth, &EvolutionFile::max_pressure_change, &EvolutionFile::smallest_step);
   tables.read_runs(evolve);
-  out.weights = checked_weights(evolve, std::move(out.weights), tables.study.runs.size());
+  out.weights = shares_of_runs(std::move(out.weights), tables.study.runs.size(), evolve,
+                               evolve.key([](auto& i) -> auto& { return i.file.weights; }));
   out.positions = std::move(tables.study);
   return std::move(out);
 }

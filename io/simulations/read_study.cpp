@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
@@ -43,10 +44,12 @@ struct BaseTables {
   }
 };
 
-/// The tables of a file without [study] or [evolve].
+/// The tables of a file without [study], [evolve] or [design].
 BaseTables base_of(CaseTable tables, const std::filesystem::path& path, std::string sha256) {
   BaseTables base{path, std::move(tables), std::move(sha256), false};
-  std::erase_if(base.tables, [](const CaseEntry& entry) { return entry.key == "study" || entry.key == "evolve"; });
+  std::erase_if(base.tables, [](const CaseEntry& entry) {
+    return entry.key == "study" || entry.key == "evolve" || entry.key == "design";
+  });
   base.simulation = find_entry(base.tables, "simulation") != nullptr;
   return base;
 }
@@ -165,7 +168,7 @@ StudyTables::StudyTables(const std::filesystem::path& file, std::string_view nam
   if (table == nullptr || !table->value.is_table())
     throw Error(ErrorKind::configuration, fmt::format("[{}] is missing", name),
                 table == nullptr ? SourcePosition{file.string(), 1, 1} : table->value.where,
-                "see docs/simulation-files.md for studies, docs/evolve.md for evolutions");
+                "see docs/simulation-files.md for studies, docs/evolve.md for evolutions, docs/design.md for designs");
 }
 
 void StudyTables::read_runs(const TableReader& all, const RunRange& checked) {
@@ -183,6 +186,22 @@ void StudyTables::read_runs(const TableReader& all, const RunRange& checked) {
   study.base = base.path;
   study.base_is_simulation = base.simulation;
   check_runs(study, base, checked);
+}
+
+std::vector<double> shares_of_runs(std::vector<double> weights, std::size_t runs, const TableReader& table,
+                                   std::string_view key) {
+  const std::string path = table.path_of(key);
+  const auto refuse = [&](std::string message, std::string advice = {}) {
+    throw Error(ErrorKind::configuration, std::move(message), table.need(key).where, std::move(advice));
+  };
+  if (weights.empty()) weights.assign(runs, 1.0);
+  if (weights.size() != runs)
+    refuse(fmt::format("{} has {} values for {} positions", path, weights.size(), runs),
+           fmt::format("one for each position, in the order of the product of {}.vary", table.path()));
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  if (!(sum > 0.0)) refuse(fmt::format("{} are all zero", path));
+  for (double& weight : weights) weight /= sum;
+  return weights;
 }
 
 StudyFile read_study_file(const std::filesystem::path& file, std::span<const std::string> overrides,

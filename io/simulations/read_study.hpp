@@ -33,7 +33,7 @@ Inputs inputs_of(const StudyFile& study);
 
 /// Parts of the reader of study files. Error(configuration) at the place of what is wrong.
 
-/// A file with a table of runs: [study] or [evolve].
+/// A file with a table of runs: [study], [evolve] or [design].
 struct StudyTables {
   /// Parses the file and finds the table; overrides below it change it. Errors: as read_study_file.
   StudyTables(const std::filesystem::path& file, std::string_view name, std::span<const std::string> overrides);
@@ -55,6 +55,10 @@ std::vector<Variation> read_variations(const TableOf<StudyFile>& study);
 
 /// All combinations, the last variation fastest. common: overrides of all runs.
 std::vector<StudyRun> runs_of(const std::vector<Variation>& variations, const std::vector<std::string>& common);
+
+/// Shares of runs that sum up to 1, from the weights that a key of the table gives; none: equal shares.
+std::vector<double> shares_of_runs(std::vector<double> weights, std::size_t runs, const TableReader& table,
+                                   std::string_view key);
 
 /// [[study.figures]].
 std::vector<StudyFigure> read_figures(const TableOf<StudyFile>& study, const std::vector<Variation>& variations);

@@ -5,6 +5,7 @@
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/settings/key_schema.hpp"
+#include "treadmark/io/simulations/design_keys.hpp"
 #include "treadmark/io/simulations/evolve_keys.hpp"
 #include "treadmark/io/simulations/limit_keys.hpp"
 #include "treadmark/io/simulations/line_keys.hpp"
@@ -42,6 +43,10 @@ TableKeys study_tables() {
 }
 TableKeys evolve_tables() {
   return {table_key("evolve", KeyType::table, "surfaces that contact changes", evolve_keys().infos)};
+}
+
+TableKeys design_tables() {
+  return {needed(table_key("design", KeyType::table, "what is sought, and what for", design_keys().infos))};
 }
 
 /// The tables of a base beside those of its study or evolution.
@@ -434,6 +439,12 @@ std::string evolve_file_schema() {
   return schema_of("Treadmark evolution file", with_base(std::move(keys)), true);
 }
 
+std::string design_file_schema() {
+  TableKeys keys = design_tables();
+  keys.push_back(table_key("cases", KeyType::table_list, "of the base"));
+  return schema_of("Treadmark design file", std::move(keys), true);
+}
+
 std::string limits_file_schema() { return schema_of("Treadmark file of limits", limit_file_keys().infos, false); }
 
 std::string vehicle_key_table() { return key_table(vehicle_tables()); }
@@ -442,6 +453,7 @@ std::string simulation_key_table() { return key_table(simulation_tables()); }
 std::string limits_key_table() { return key_table(limit_file_keys().infos); }
 std::string study_key_table() { return key_table(study_tables()); }
 std::string evolve_key_table() { return key_table(evolve_tables()); }
+std::string design_key_table() { return key_table(design_tables()); }
 
 Inputs inputs_of(const SimulationFile& file) {
   const SimulationFile fresh;

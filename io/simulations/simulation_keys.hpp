@@ -44,15 +44,17 @@ std::string track_file_schema();
 std::string simulation_file_schema();
 std::string study_file_schema();
 std::string evolve_file_schema();
+std::string design_file_schema();
 std::string limits_file_schema();
 
-/// All keys as Markdown tables (docs/simulation-files.md, docs/evolve.md, docs/assessment.md); tables that a track
-/// shares with a vehicle once.
+/// All keys as Markdown tables (docs/simulation-files.md, docs/evolve.md, docs/design.md, docs/assessment.md); tables
+/// that a track shares with a vehicle once.
 std::string vehicle_key_table();
 std::string track_key_table();
 std::string simulation_key_table();
 std::string study_key_table();
 std::string limits_key_table();
 std::string evolve_key_table();
+std::string design_key_table();
 
 }  // namespace treadmark::io
