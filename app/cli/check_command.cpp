@@ -125,10 +125,10 @@ struct PlainKind {
   void (*check)(const std::string& name, const std::vector<std::string>& overrides);
 };
 constexpr PlainKind kPlainKinds[] = {
-    {io::FileKind::study, check_study_file},           {io::FileKind::evolution, check_evolution_file},
-    {io::FileKind::simulation, check_simulation_file}, {io::FileKind::vehicle, check_vehicle_file},
-    {io::FileKind::track, check_track_file},           {io::FileKind::limits, check_limits_file},
-    {io::FileKind::import, check_import_file}};
+    {io::FileKind::study, check_study_file},     {io::FileKind::evolution, check_evolution_file},
+    {io::FileKind::design, check_design_file},   {io::FileKind::simulation, check_simulation_file},
+    {io::FileKind::vehicle, check_vehicle_file}, {io::FileKind::track, check_track_file},
+    {io::FileKind::limits, check_limits_file},   {io::FileKind::import, check_import_file}};
 
 bool is_geometry_file(const std::string& name) { return app::is_profile_file(name) || app::is_surface_file(name); }
 

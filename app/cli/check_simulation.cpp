@@ -90,6 +90,7 @@ std::string track_schema() { return io::track_file_schema(); }
 std::string simulation_schema() { return io::simulation_file_schema(); }
 std::string study_schema() { return io::study_file_schema(); }
 std::string evolve_schema() { return io::evolve_file_schema(); }
+std::string design_schema() { return io::design_file_schema(); }
 std::string limits_schema() { return io::limits_file_schema(); }
 
 }  // namespace treadmark::cli

@@ -26,6 +26,7 @@ constexpr FileSchema kSchemas[] = {{"case", io::case_file_schema},
                                    {"simulation", simulation_schema},
                                    {"study", study_schema},
                                    {"evolve", evolve_schema},
+                                   {"design", design_schema},
                                    {"limits", limits_schema},
                                    // of what the program writes
                                    {"result", io::result_schema},

@@ -34,6 +34,7 @@ struct KeysOf {
 constexpr KeysOf kKeysOf[] = {{"import_keys", " import ", "scans", import_schema},
                               {"simulation_keys", " simulate stability response sweep ", "vehicle", simulation_schema},
                               {"evolution_keys", " evolve ", "vehicle", evolve_schema},
+                              {"design_keys", " design ", "vehicle", design_schema},
                               {"track_keys", " track ", "vehicle", track_schema},
                               {"case_keys", "", nullptr, io::case_file_schema}};
 

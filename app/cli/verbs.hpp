@@ -60,6 +60,8 @@ void check_simulation_file(const std::string& name, const std::vector<std::strin
 void check_vehicle_file(const std::string& name, const std::vector<std::string>& overrides);
 void check_track_file(const std::string& name, const std::vector<std::string>& overrides);
 void check_limits_file(const std::string& name, const std::vector<std::string>& overrides);
+/// In design_command.cpp.
+void check_design_file(const std::string& name, const std::vector<std::string>& overrides);
 /// In import_command.cpp.
 void check_import_file(const std::string& name, const std::vector<std::string>& overrides);
 
@@ -76,6 +78,7 @@ std::string track_schema();
 std::string simulation_schema();
 std::string study_schema();
 std::string evolve_schema();
+std::string design_schema();
 std::string limits_schema();
 
 }  // namespace treadmark::cli

@@ -43,6 +43,7 @@ std::string track_schema() { left_out("vehicle", "the schema of track files"); }
 std::string simulation_schema() { left_out("vehicle", "the schema of simulation files"); }
 std::string study_schema() { left_out("vehicle", "the schema of study files"); }
 std::string evolve_schema() { left_out("vehicle", "the schema of evolution files"); }
+std::string design_schema() { left_out("vehicle", "the schema of design files"); }
 std::string limits_schema() { left_out("vehicle", "the schema of files of limits"); }
 
 }  // namespace treadmark::cli

@@ -15,6 +15,7 @@
 #include "treadmark/app/cases/pages/run_overlay_page.hpp"
 #include "treadmark/app/cases/pages/run_page.hpp"
 #include "treadmark/app/compare/pages/compare_page.hpp"
+#include "treadmark/app/design/pages/design_page.hpp"
 #include "treadmark/app/evolve/pages/evolution_page.hpp"
 #include "treadmark/app/import/pages/import_page.hpp"
 #include "treadmark/app/pages/page_parts.hpp"
@@ -89,6 +90,7 @@ constexpr KindRow kKinds[] = {
     {"bench.json", "a bench", [](const Found& f) { return bench_page(f.folder); }},
     {"report.json", "an import", [](const Found& f) { return import_page(f.folder); }},
     {io::kEvolutionIdentity, "an evolution", [](const Found& f) { return evolution_page(f.folder); }},
+    {"design.json", "a design", [](const Found& f) { return design_page(f.folder); }},
     {"study.id", "a sweep", [](const Found& f) { return sweep_page(read_study_folder(f.folder)); }},
     {"simulation.h5", "a simulation", [](const Found& f) { return simulation_in(f.store()); }, overlaid_simulations},
     {"unfinished.h5", "a simulation", [](const Found& f) { return simulation_in(f.store()); }, overlaid_simulations},
