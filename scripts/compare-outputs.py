@@ -66,7 +66,7 @@ def jobs():
     for case in sorted(EXAMPLES.glob("*.toml")):
         text = case.read_text()
         yield f"check-{case.stem}", [["check", str(case)]]
-        if not re.search(r"^\[(evolve|study|simulation)", text, re.MULTILINE):
+        if not re.search(r"^\[(evolve|study|simulation|design)", text, re.MULTILINE):
             yield f"run-{case.stem}", [["run", str(case), *results], ["plot", "OUT/results", "--what", "pressure", "-o", "OUT/plot.svg"], ["report", "OUT/results", "-o", "OUT/again.html"]]
             # what .inp cannot say is refused: so is its message compared
             yield f"convert-{case.stem}", [["convert", str(case), "-o", "OUT/case.inp"], ["convert", str(case), "-o", "OUT/case.toml"]]
@@ -113,6 +113,8 @@ def jobs():
     yield "evolve-tired", evolve("tired-rail", "evolve.passages=2e4", "heat.compute=true", "evolve.rail.fatigue.austenite_C=40",
                                  'evolve.rail.fatigue.measures=["fi_surf", "shakedown", "whole_life", "subsurface", "dang_van", "martensite"]')
     yield "evolve-flowing", evolve("flowing-flat", "evolve.distance_km=0.01")
+    yield "design-rail", [["design", example("ground-rail"), "--set", "design.solutions=12", "-o", "OUT/results", "--json", "OUT/result.json", "--report", "OUT/report.html"],
+                          ["report", "OUT/results", "-o", "OUT/again.html"]]
     for folder in ("contact_examples", "contact_testbank"):
         for case in sorted((SHARED / "data" / folder).glob("**/*.inp")):
             yield f"inp-{case.stem}", [["run", str(case), *results]]

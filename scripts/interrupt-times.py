@@ -111,6 +111,7 @@ ROWS = {  # name: command, target
     "track": (f"track {EXAMPLES}/tracks/gm-tt0088.toml --fit 3 --count 2000 -o @", "out"),
     "fmu": ("fmu pair.toml -o @", "out.fmu"),
     "evolve": (f"evolve {EXAMPLES}/hollow-wheel.toml -o @", "out"),
+    "design": (f"design {EXAMPLES}/ground-rail.toml -o @", "out"),
 }
 # What only reads and prints ends at once.
 PRINTING = {"diff", "conform", "new", "list", "schema", "completion", "man"}

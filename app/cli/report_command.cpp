@@ -43,11 +43,12 @@ int report_command(const ReportOptions& options, const CommonOptions& common) {
 
 Command add_report(CLI::App& verb) {
   auto options = std::make_shared<ReportOptions>();
-  verb.add_option("FOLDER", options->folders,
-                  "What run, compare, bench, import --report, simulate, sweep, evolve, design, geometry, track, stability, "
-                  "response or assess wrote. "
-                  "Two to four folders of "
-                  "run, or of simulate, are overlaid and compared with the first")
+  verb.add_option(
+          "FOLDER", options->folders,
+          "What run, compare, bench, import --report, simulate, sweep, evolve, design, geometry, track, stability, "
+          "response or assess wrote. "
+          "Two to four folders of "
+          "run, or of simulate, are overlaid and compared with the first")
       ->required();
   verb.add_option("-o,--output", options->output_file,
                   "The report, default FOLDER/report.html, of several overlay.html in the first")

@@ -153,6 +153,7 @@ void DesignCases::find_variables() {
 void DesignCases::find_surfaces() {
   store_.emplace();
   std::vector<double> start;
+  start.reserve(variables_.size());
   for (const DesignVariable& v : variables_) start.push_back((v.given - v.from) / (v.to - v.from));
   for (std::size_t k = 0; k < keys_.size(); ++k) {
     std::array<wheelrail::Geometry, 2> ends;
@@ -269,7 +270,8 @@ std::string DesignCases::where_of(std::size_t quantity, std::size_t number) cons
     case Kind::convexity:
       break;
   }
-  return fmt::format("y = {:g} mm", kMilli * (file_.depth->from + static_cast<double>(number) * file_.depth->step));
+  const auto place = static_cast<double>(first_bent() + number);
+  return fmt::format("y = {:g} mm", kMilli * (file_.depth->from + place * file_.depth->step));
 }
 
 const io::SurfaceSource& DesignCases::source_of(const io::Case& c) const {
@@ -385,6 +387,7 @@ void DesignCases::add_conicity(const std::vector<double>& design, std::size_t qu
     }
   for (const BodyPair& pair : pairs_) {
     std::vector<wheelrail::Geometry> bodies;
+    bodies.reserve(designs.size());
     for (const std::vector<double>& one : designs) bodies.push_back(geometry(pair.position, one));
     std::vector<std::vector<double>> found(designs.size());
     parallel_for(designs.size(), [&](std::size_t i) {
@@ -417,7 +420,7 @@ void DesignCases::add_depth(const std::vector<double>& design, Kind kind, std::v
     out.push_back(std::move(number));
   };
   if (kind == Kind::removed) return add(0.0, removed);
-  for (std::size_t k = 0; k < places; ++k)
+  for (std::size_t k = first_bent(); k < places - first_bent(); ++k)
     add(kind == Kind::convexity ? convexity_[k] : 0.0, [&](const std::vector<double>& d) {
       return (d[kPads + k - 1] - 2.0 * d[kPads + k] + d[kPads + k + 1]) / (step * step);
     });

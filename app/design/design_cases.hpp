@@ -94,6 +94,8 @@ class DesignCases {
 
   const io::SurfaceSource& source_of(const io::Case& c) const;
   io::Case case_of(std::size_t position, const std::vector<double>& design) const;
+  /// The first place where the depth bends: level ends bend it themselves.
+  std::size_t first_bent() const { return file_.depth->level_ends ? 1 : 0; }
   /// With places beyond the ends.
   std::vector<double> padded(std::vector<double> depths) const;
   /// Of padded depths.

@@ -198,7 +198,10 @@ class DesignRun {
     }
     step.design = static_cast<int>(++tried_);
     step.solutions = tried_ * cases_.solutions();
-    if (tried_ == 1) settle_scales(*last_numbers_);
+    if (tried_ == 1) {
+      first_numbers_ = *last_numbers_;
+      settle_scales(first_numbers_);
+    }
     if (last_numbers_) judge(design, *last_numbers_, step);
     out_.history.push_back(std::move(step));
     if (progress_.report)
@@ -284,7 +287,8 @@ class DesignRun {
 
   void search() {
     constexpr double kFar = 20.0;  // of largest numbers, in their scales
-    const DesignNumbers& first = *try_design(start_);
+    try_design(start_);
+    const DesignNumbers& first = first_numbers_;
     write_best();  // what cannot be written is told before the search
     optimisation::Minimisation problem;
     problem.start = start_;
@@ -340,7 +344,7 @@ class DesignRun {
     number_place_.clear();
     for (std::size_t q = 0; q < best_numbers_.size(); ++q)
       for (std::size_t i = 0; i < best_numbers_[q].size(); ++i) {
-        if (!std::isfinite(best_numbers_[q][i].value)) continue;
+        if (!std::isfinite(best_numbers_[q][i].value) && !std::isfinite(first_numbers_[q][i].value)) continue;
         out_.numbers.push_back({cases_.name_of(q), cases_.where_of(q, i), kNaN, best_numbers_[q][i].value});
         number_place_.emplace_back(q, i);
       }
@@ -388,6 +392,7 @@ class DesignRun {
 
   void hold(DesignedNumber& number, const DesignNumber& here, const std::vector<double>& way, double once,
             double twice) {
+    if (!std::isfinite(here.value)) return;
     number.derivative = 0.0;
     for (std::size_t v = 0; v < way.size(); ++v) number.derivative += way[v] * here.by[v];
     number.difference = (-3.0 * here.value + 4.0 * once - twice) / (2.0 * kCheckStep);
@@ -442,7 +447,7 @@ class DesignRun {
   std::size_t asked_ = 0, tried_ = 0, checked_ = 0;  ///< designs in all, of the search, and after it
   std::vector<double> last_, best_;
   std::optional<DesignNumbers> last_numbers_;
-  DesignNumbers best_numbers_;
+  DesignNumbers first_numbers_, best_numbers_;
   std::vector<std::pair<std::size_t, std::size_t>> number_place_;  ///< of the numbers of the result
   io::CaseFile designed_;
   DesignResult out_;

@@ -39,7 +39,7 @@ const KeyTable<DesignInput>& design_keys() {
         [](auto& i) -> auto& { return i.file.weights; });
     list.choice(
         "method", {{"slsqp", Method::slsqp}, {"mma", Method::mma}},
-        "sequential quadratic programming, or moving asymptotes: slower, and seldom led astray",
+        "sequential quadratic programming (Kraft 1988), or moving asymptotes (Svanberg 2002)",
         [](auto& i) -> auto& { return i.file.method; });
     list.integer(
         "solutions", 1, kMostValues,
@@ -71,10 +71,10 @@ const KeyTable<DesignDepth>& design_depth_keys() {
     list.number("to_mm", kAnyNumber, "y of the last place", &D::to, kNeeded);
     list.number("step_mm", kPositive, "between two places, a whole part of the way", &D::step, kNeeded);
     list.number_list("least_mm", kAnyNumber,
-                     "depth at each place, or one number for all; negative: material comes on top; without it 0",
+                     "depth at each place, or one for all places; negative: material comes on top; without it 0",
                      &D::least);
     list.number_list("most_mm", kAnyNumber,
-                     "the same; where both are equal the depth is that, and a search begins at the one nearest to 0",
+                     "the same; where both are equal that is the depth. The search begins at the depth nearest to 0",
                      &D::most, kNeeded);
     list.choice("ends", {{"zero", false}, {"level", true}},
                 "beyond the places: no depth, or that of the last place goes on", &D::level_ends);

@@ -168,6 +168,7 @@ TEST_F(BadInput, WhatHasNoEndIsNotRead) {
     if (has_part("vehicle"))
       for (const char* verb : {"simulate", "evolve", "stability", "response", "track", "sweep", "table"})
         commands.push_back({verb, name, "-o", out});
+    if (has_part("nlopt")) commands.push_back({"design", name, "-o", out});
     if (has_part("vehicle")) commands.push_back({"assess", name});
     if (has_part("scans")) commands.push_back({"scan", name, "-o", out + ".xyz", "--body", "rail"});
     if (has_part("scans")) commands.push_back({"import", name, "-o", out + ".slcs", "--body", "rail"});

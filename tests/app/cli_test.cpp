@@ -140,8 +140,8 @@ TEST(CommandLine, ListsAndSchema) {
                 verb("import", "scans") + verb("scan", "scans") + "convert\ntrace\n" + verb("simulate", "vehicle") +
                 verb("assess", "vehicle") + verb("stability", "vehicle") + verb("response", "vehicle") +
                 verb("track", "vehicle") + verb("fmu", "fmu") + verb("evolve", "vehicle") + verb("sweep", "vehicle") +
-                verb("report", "report") + verb("plot", "report") + verb("live", "report_scripts") +
-                "new\nlist\nschema\ncompletion\nman\n");
+                verb("design", "nlopt") + verb("report", "report") + verb("plot", "report") +
+                verb("live", "report_scripts") + "new\nlist\nschema\ncompletion\nman\n");
 }
 
 TEST(CommandLine, HelpFitsATerminalAndHasExamples) {

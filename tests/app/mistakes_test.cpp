@@ -183,6 +183,7 @@ TEST_F(Mistakes, SlipsOfTomlAreNamedAlikeInAllKindsOfFiles) {
       {"[simulation]\nSLIP\n", "vehicle", {"simulate", "@/kind.toml"}},
       {"[study]\nSLIP\n", "vehicle", {"sweep", "@/kind.toml", "-o", "@/x"}},
       {"[evolve]\nSLIP\n", "vehicle", {"evolve", "@/kind.toml", "-o", "@/x"}},
+      {"[design]\nSLIP\n", "nlopt", {"design", "@/kind.toml", "-o", "@/x"}},
       {"[vehicle]\nSLIP\n", "vehicle", {"stability", "@/kind.toml"}},
       {"[track]\nSLIP\n", "vehicle", {"track", "@/kind.toml"}},
       {"[scan]\nSLIP\n", "scans", {"import", "@/wheel.csv", "-o", "@/x.slcw", "--settings", "@/kind.toml"}},

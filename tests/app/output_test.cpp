@@ -88,8 +88,8 @@ TEST_F(OutputPlaces, EveryVerbNoticesThatNothingIsTaken) {
 #undef VERB
        }) {
     const std::string name = verb;
-    if (name == "simulate" || name == "assess" || name == "sweep" || name == "evolve")
-      continue;                    // tests/app/simulation/full_output_test.cpp, tests/app/evolve/evolution_test.cpp
+    if (name == "simulate" || name == "assess" || name == "sweep" || name == "evolve" || name == "design")
+      continue;                    // tests/app/simulation/full_output_test.cpp, tests/app/{evolve,design}
     if (name == "live") continue;  // needs the program for browsers: report/web/test/live.browser.mjs
     ASSERT_TRUE(uses.contains(name)) << name << " needs a line here";
     const Use& use = uses.at(name);

@@ -60,6 +60,7 @@ TEST(OwnInput, IsNoOutputOfAnyVerb) {
       {"assess", {{"@"}, "vehicle"}},
       {"sweep", {{"@"}, "vehicle"}},
       {"evolve", {{"@"}, "vehicle"}},
+      {"design", {{"@"}, "nlopt"}},
       {"stability", {{"@"}, "vehicle"}},
       {"response", {{"@"}, "vehicle"}},
       {"track", {{"@"}, "vehicle"}},

@@ -27,6 +27,7 @@ ONLY_TAKEN = {
     r"^assess .*--section": "places of a run of hundreds of metres: tests of assessments do it",
     r"^run my\.toml.*": "the case of README.md, which has a test of its own",
     r"^check my\.toml": "the same",
+    r"^design": "a search of minutes: tests of designs shorten it",
     r"^live": "needs the program for browsers: scripts/web.sh runs it",
 }
 

@@ -36,6 +36,7 @@ TEST(LeftOut, RequestsEndAsWrongUsageAndNameTheOption) {
       {"vehicle", "treadmark assess", {"assess", "/nowhere/out", "--from", "2"}},
       {"vehicle", "treadmark sweep", {"sweep", nowhere, "--resume", "-o", "/nowhere/out"}},
       {"vehicle", "treadmark evolve", {"evolve", nowhere, "-o", "/nowhere/out"}},
+      {"nlopt", "treadmark design", {"design", nowhere, "-o", "/nowhere/out"}},
       {"vehicle", "treadmark stability", {"stability", nowhere, "--to", "50"}},
       {"vehicle", "treadmark response", {"response", nowhere, "--to", "50"}},
       {"vehicle", "treadmark track", {"track", nowhere, "--fit", "2"}},
