@@ -2,9 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/core/surface.hpp"
 
+#include <cmath>
 #include <string>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
 
 namespace treadmark {
 
@@ -34,7 +36,7 @@ void Surface::heights(const PlaneGrid& plane_grid, const HeightsOut& out) const 
 }
 
 std::shared_ptr<const Surface> Surface::changed(std::size_t parameter, double amount) const {
-  std::shared_ptr<const Surface> out = parameter < parameters().size() ? do_change(parameter, amount) : nullptr;
+  std::shared_ptr<const Surface> out = parameter < parameter_count() ? do_change(parameter, amount) : nullptr;
   if (!out)
     throw Error(ErrorKind::configuration,
                 "a surface of " + std::string(backend()) + " has no parameter " + std::to_string(parameter) +
@@ -58,6 +60,42 @@ HeightsBy Surface::heights_by(std::size_t parameter, const PlaneGrid& plane_grid
   changed(parameter, step)->heights(plane_grid, {by, {}, {}});
   changed(parameter, -step)->heights(plane_grid, {less, {}, {}});
   for (std::size_t i = 0; i < by.size(); ++i) by[i] = (by[i] - less[i]) / (2.0 * step);
+  return HeightsBy::differences;
+}
+
+std::optional<HeightsBy> Surface::do_pull_back(const Pose&, std::span<const Vec2>, std::span<const double>,
+                                               std::span<double>) const {
+  return std::nullopt;
+}
+
+HeightsBy Surface::pull_back(const Pose& X_SP, std::span<const Vec2> points_P, std::span<const double> weights,
+                             std::span<double> by) const {
+  if (weights.size() != points_P.size() || by.size() != parameter_count())
+    throw Error(ErrorKind::configuration,
+                "pull_back() needs as many weights as points, and as many results as the surface has parameters");
+  std::vector<Vec2> points;
+  std::vector<double> pulling;
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    if (weights[i] != 0.0) points.push_back(points_P[i]), pulling.push_back(weights[i]);
+  std::vector<double> z(points.size());
+  heights_at(X_SP, points, {z, {}, {}});
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < z.size(); ++i)
+    if (!std::isnan(z[i])) points[left] = points[i], pulling[left++] = pulling[i];
+  points.resize(left), pulling.resize(left);
+  if (left == 0 || by.empty()) return HeightsBy::exact;
+  if (const std::optional<HeightsBy> known = do_pull_back(X_SP, points, pulling, by)) return *known;
+
+  const std::vector<ShapeParameter> all = parameters();
+  parallel_for(all.size(), [&](std::size_t k) {
+    std::vector<double> more(left), less(left);
+    changed(k, all[k].step)->heights_at(X_SP, points, {more, {}, {}});
+    changed(k, -all[k].step)->heights_at(X_SP, points, {less, {}, {}});
+    double sum = 0.0;
+    for (std::size_t i = 0; i < left; ++i)
+      if (const double rise = more[i] - less[i]; !std::isnan(rise)) sum += pulling[i] * rise;
+    by[k] += sum / (2.0 * all[k].step);
+  });
   return HeightsBy::differences;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -87,6 +88,8 @@ struct ShapeParameter {
   std::string name;   ///< small letters, digits, '_': of no other parameter of the surface
   std::string unit;   ///< in SI: "m", "rad"; "1": none
   double step = 0.0;  ///< in that unit, > 0: moves the surface by some hundredths of a micrometre at most
+  /// Where it acts [m], surface frame, about; of what is the same all along at x = 0 or theta = 0. NaN: nowhere most.
+  Vec3 place_S = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
 };
 
 /// How derivatives of heights were found.
@@ -127,6 +130,8 @@ class Surface {
 
   /// Numbers that the shape follows from, by which there are derivatives. Empty: there are none, or it does not tell.
   virtual std::vector<ShapeParameter> parameters() const { return {}; }
+  /// How many they are, without making their names.
+  virtual std::size_t parameter_count() const { return parameters().size(); }
   /// The surface with a parameter changed by an amount of its unit; it need not tell parameters of its own. Errors:
   /// Error(configuration) if there is no such parameter, or no surface with that amount.
   std::shared_ptr<const Surface> changed(std::size_t parameter, double amount) const;
@@ -134,6 +139,12 @@ class Surface {
   /// where there is no surface. Exact, or by differences where a surface does not know better, and says which. Errors:
   /// as changed() and heights().
   HeightsBy heights_by(std::size_t parameter, const PlaneGrid& plane_grid, std::span<double> by) const;
+  /// The way back, of all parameters at once: to by[k] is added the sum of weights[i] times the derivative of height i
+  /// by parameter k, of heights at points (x, y) of a plane that stay [m per unit]; what has no surface does not count.
+  /// Exact, or where a surface does not know better by differences between two surfaces for each parameter, and says
+  /// which. Errors: Error(configuration) for other numbers of weights and results, and as changed().
+  HeightsBy pull_back(const Pose& X_SP, std::span<const Vec2> points_P, std::span<const double> weights,
+                      std::span<double> by) const;
 
   /// Heights (and slopes) over a regular grid in a rigidly placed plane; see HeightsOut.
   /// Errors: Error(configuration) if an output array has another size than the grid, or the grid is not positive.
@@ -156,6 +167,9 @@ class Surface {
   virtual std::shared_ptr<const Surface> do_change(std::size_t parameter, double amount) const;
   /// Exact derivatives; false: not known, and what was written does not count.
   virtual bool do_heights_by(std::size_t parameter, const PlaneGrid& plane_grid, std::span<double> by) const;
+  /// Of points that have a surface. Nothing: not known, and nothing was added.
+  virtual std::optional<HeightsBy> do_pull_back(const Pose& X_SP, std::span<const Vec2> points_P,
+                                                std::span<const double> weights, std::span<double> by) const;
   virtual void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const = 0;
   /// Falls back to one-point grids; a backend that can do better overrides it.
   virtual void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <tuple>
 
 #include "treadmark/backends/analytic/arc_row.hpp"
@@ -181,6 +182,59 @@ PrismaticSurface::PrismaticSurface(const ArcChain& chain)
       angle_min_ = std::min(angle_min_, angle);
       angle_max_ = std::max(angle_max_, angle);
     }
+}
+
+namespace {
+
+/// A place of a chain: a segment, and how far along it.
+struct ChainPlace {
+  std::size_t segment = 0;
+  double along = 0.0;
+};
+
+/// Where it is least inclined.
+ChainPlace crown_of(const std::vector<ChainSegment>& chain) {
+  ChainPlace crown;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < chain.size(); ++k) {
+    const ChainSegment& s = chain[k];
+    const double level = s.curvature == 0.0 ? 0.0 : std::clamp(-s.angle / s.curvature, 0.0, s.length);
+    for (const double along : {level, s.length})
+      if (const double lean = std::fabs(s.angle + s.curvature * along); lean < least) least = lean, crown = {k, along};
+  }
+  return crown;
+}
+
+}  // namespace
+
+std::vector<ShapeParameter> PrismaticSurface::parameters() const {
+  constexpr double kFar = 5e-8;  // [m] by which the ends move
+  const double total = chain_.back().s + chain_.back().length;
+  std::vector<ShapeParameter> all;
+  for (std::size_t k = 0; k < chain_.size(); ++k) {
+    const ChainSegment& s = chain_[k];
+    const ChainPoint middle = point_on(s, 0.5 * s.length);
+    const std::string name = "segment_" + std::to_string(k);
+    const Vec3 place(0.0, middle.y, middle.z);
+    all.push_back({name + "_curvature", "1/m", kFar / (s.length * total), place});
+    all.push_back({name + "_length", "m", kFar, place});
+  }
+  return all;
+}
+
+std::shared_ptr<const Surface> PrismaticSurface::do_change(std::size_t parameter, double amount) const {
+  ArcChain chain{chain_.front().y, chain_.front().z, chain_.front().angle, {}};
+  for (const ChainSegment& s : chain_) chain.segments.push_back({s.length, s.curvature});
+  ArcChain::Segment& changed = chain.segments[parameter / 2];
+  (parameter % 2 == 0 ? changed.curvature : changed.length) += amount;
+  const ChainPlace crown = crown_of(chain_);
+  const ChainPoint is = point_on(resolve(chain)[crown.segment], crown.along),
+                   was = point_on(chain_[crown.segment], crown.along);
+  const double turn = was.angle - is.angle, c = std::cos(turn), s = std::sin(turn);
+  const double y = chain.start_y - is.y, z = chain.start_z - is.z;
+  chain.start_y = was.y + c * y - s * z, chain.start_z = was.z + s * y + c * z;
+  chain.start_angle += turn;
+  return std::make_shared<PrismaticSurface>(chain);
 }
 
 std::shared_ptr<const ChainView> PrismaticSurface::view(double d_y, double d_z) const {

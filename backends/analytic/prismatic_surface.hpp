@@ -27,8 +27,12 @@ class PrismaticSurface final : public Surface, public Parametric {
   std::size_t memory_bytes() const override {
     return sizeof(*this) + chain_.capacity() * sizeof(ChainSegment) + chords_.memory_bytes();
   }
+  /// Curvature and length of every segment, the others following it; the crown stays where it is.
+  std::vector<ShapeParameter> parameters() const override;
+  std::size_t parameter_count() const override { return 2 * chain_.size(); }
 
  private:
+  std::shared_ptr<const Surface> do_change(std::size_t parameter, double amount) const override;
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;

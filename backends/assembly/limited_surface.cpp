@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,7 @@ class LimitedSurface final : public Surface, public Parametric {
   Facing facing() const override { return rail_->facing(); }
   std::vector<double> data_v() const override { return rail_->data_v(); }
   std::vector<ShapeParameter> parameters() const override { return rail_->parameters(); }
+  std::size_t parameter_count() const override { return rail_->parameter_count(); }
   std::size_t memory_bytes() const override { return sizeof(*this) + rail_->memory_bytes(); }
   Box3 bounds() const override {
     Box3 box = rail_->bounds();
@@ -53,6 +55,10 @@ class LimitedSurface final : public Surface, public Parametric {
 
   std::shared_ptr<const Surface> do_change(std::size_t parameter, double amount) const override {
     return std::make_shared<LimitedSurface>(rail_->changed(parameter, amount), x_min_, x_max_);
+  }
+  std::optional<HeightsBy> do_pull_back(const Pose& X_SP, std::span<const Vec2> points_P,
+                                        std::span<const double> weights, std::span<double> by) const override {
+    return rail_->pull_back(X_SP, points_P, weights, by);
   }
   void do_heights(const PlaneGrid& plane, const HeightsOut& out) const override {
     const Grid2& g = plane.grid;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -57,8 +58,53 @@ class OutermostSurface final : public Surface {
     for (const auto& part : parts_) sum += part->memory_bytes();
     return sum;
   }
+  /// Those of all parts, with the number of the part before their names.
+  std::vector<ShapeParameter> parameters() const override {
+    std::vector<ShapeParameter> all;
+    for (std::size_t k = 0; k < parts_.size(); ++k)
+      for (ShapeParameter& one : parts_[k]->parameters()) {
+        one.name = "part_" + std::to_string(k) + '_' + one.name;
+        all.push_back(std::move(one));
+      }
+    return all;
+  }
+  std::size_t parameter_count() const override {
+    std::size_t sum = 0;
+    for (const auto& part : parts_) sum += part->parameter_count();
+    return sum;
+  }
 
  private:
+  std::shared_ptr<const Surface> do_change(std::size_t parameter, double amount) const override {
+    std::vector<std::shared_ptr<const Surface>> parts = parts_;
+    for (auto& part : parts) {
+      const std::size_t count = part->parameter_count();
+      if (parameter < count) {
+        part = part->changed(parameter, amount);
+        return std::make_shared<OutermostSurface>(std::move(parts));
+      }
+      parameter -= count;
+    }
+    return nullptr;
+  }
+  std::optional<HeightsBy> do_pull_back(const Pose& X_SP, std::span<const Vec2> points_P,
+                                        std::span<const double> weights, std::span<double> by) const override {
+    std::vector<double> z(points_P.size()), own(points_P.size());
+    heights_at(X_SP, points_P, {z, {}, {}});
+    HeightsBy how = HeightsBy::exact;
+    std::vector<char> taken(points_P.size(), 0);
+    for (const auto& part : parts_) {
+      std::vector<double> of_part(weights.size(), 0.0);
+      part->heights_at(X_SP, points_P, {own, {}, {}});
+      for (std::size_t i = 0; i < z.size(); ++i)
+        if (taken[i] == 0 && own[i] == z[i]) of_part[i] = weights[i], taken[i] = 1;
+      const std::size_t count = part->parameter_count();
+      if (part->pull_back(X_SP, points_P, of_part, by.first(count)) == HeightsBy::differences)
+        how = HeightsBy::differences;
+      by = by.subspan(count);
+    }
+    return how;
+  }
   bool outside_of(double z, double other) const { return facing() == Facing::up ? z < other : z > other; }
 
   /// Whether z replaces what has been found so far (NaN: nothing).

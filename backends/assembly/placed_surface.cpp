@@ -3,6 +3,7 @@
 #include "treadmark/backends/assembly/placed_surface.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,7 +40,12 @@ class Placed : public Surface, public Parametric {
   Box3 bounds() const override { return moved(surface_->bounds(), X_SB_); }
   std::size_t memory_bytes() const override { return sizeof(*this) + surface_->memory_bytes(); }
   std::vector<double> data_v() const override { return surface_->data_v(); }
-  std::vector<ShapeParameter> parameters() const override { return surface_->parameters(); }
+  std::vector<ShapeParameter> parameters() const override {
+    std::vector<ShapeParameter> all = surface_->parameters();
+    for (ShapeParameter& one : all) one.place_S = X_SB_.apply(one.place_S);
+    return all;
+  }
+  std::size_t parameter_count() const override { return surface_->parameter_count(); }
   bool exact_derivatives() const override { return has_exact_derivatives(*surface_); }
 
  protected:
@@ -91,6 +97,10 @@ class MovedSurface final : public Placed {
   bool do_heights_by(std::size_t parameter, const PlaneGrid& g, std::span<double> by) const override {
     return surface().heights_by(parameter, {seen_from_own(g.X_SP), g.grid}, by) == HeightsBy::exact;
   }
+  std::optional<HeightsBy> do_pull_back(const Pose& X_SP, std::span<const Vec2> points_P,
+                                        std::span<const double> weights, std::span<double> by) const override {
+    return surface().pull_back(seen_from_own(X_SP), points_P, weights, by);
+  }
   void do_heights(const PlaneGrid& g, const HeightsOut& out) const override {
     surface().heights({seen_from_own(g.X_SP), g.grid}, out);
   }
@@ -139,6 +149,12 @@ class TurnedSurface final : public Placed {
 
   std::shared_ptr<const Surface> do_change(std::size_t parameter, double amount) const override {
     return std::make_shared<TurnedSurface>(surface().changed(parameter, amount), X_SB().origin.z());
+  }
+  std::optional<HeightsBy> do_pull_back(const Pose& X_SP, std::span<const Vec2> points_P,
+                                        std::span<const double> weights, std::span<double> by) const override {
+    std::vector<double> turned_weights(weights.begin(), weights.end());
+    for (double& weight : turned_weights) weight = -weight;
+    return surface().pull_back(turned(X_SP), turned(points_P), turned_weights, by);
   }
   void do_heights(const PlaneGrid& plane, const HeightsOut& out) const override {
     Grid2 g = plane.grid;

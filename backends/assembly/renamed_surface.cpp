@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/assembly/renamed_surface.hpp"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,7 @@ class RenamedSurface final : public Surface, public Parametric {
   bool constant_between(double u_min, double u_max) const override { return made_->constant_between(u_min, u_max); }
   std::vector<double> data_v() const override { return made_->data_v(); }
   std::vector<ShapeParameter> parameters() const override { return made_->parameters(); }
+  std::size_t parameter_count() const override { return made_->parameter_count(); }
   void do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const override { evaluate(*made_, uv, out); }
   bool exact_derivatives() const override { return has_exact_derivatives(*made_); }
 
@@ -35,6 +37,10 @@ class RenamedSurface final : public Surface, public Parametric {
   }
   bool do_heights_by(std::size_t parameter, const PlaneGrid& plane_grid, std::span<double> by) const override {
     return made_->heights_by(parameter, plane_grid, by) == HeightsBy::exact;
+  }
+  std::optional<HeightsBy> do_pull_back(const Pose& X_SP, std::span<const Vec2> points_P,
+                                        std::span<const double> weights, std::span<double> by) const override {
+    return made_->pull_back(X_SP, points_P, weights, by);
   }
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override {
     made_->heights(plane_grid, out);

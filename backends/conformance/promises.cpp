@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include <fmt/format.h>
@@ -449,6 +450,50 @@ Finding curvatures(const Subject& s) {
   return tally.finding(facets ? 0.0 : s.brief ? 0.5 : s.creases == Creases::chords ? 1.0 / 3.0 : 1.0 / 6.0);
 }
 
+/// Against the surface with each of a few parameters changed, those on which the heights of some points depend most.
+Finding pulled_back(const Subject& s) {
+  constexpr double kSame = 2e-3, kRounding = 1e-12, kLean = 0.3, kManySteps = 1e3;
+  constexpr std::size_t kPlanes = 2, kMost = 2;
+  constexpr Grid2 kClose{0.2e-3, -0.1e-3, 0.43e-3, 0.39e-3, 3, 3};
+  Tally tally(s);
+  const std::vector<ShapeParameter> all = s.surface->parameters();
+  tally.expect(all.size() == s.surface->parameter_count(), {}, "how many parameters it has");
+  for (std::size_t k = 0; k < std::min(kPlanes, s.planes.size()) && !all.empty(); ++k) {
+    const Pose& X = s.planes[k];
+    std::vector<Vec2> points;
+    for (int iy = 0; iy < kClose.ny; ++iy)
+      for (int ix = 0; ix < kClose.nx; ++ix) points.emplace_back(kClose.x(ix), kClose.y(iy));
+    std::vector<SurfacePoint> at(points.size());
+    s.surface->locate(X, points, at);
+    std::vector<double> weights(points.size(), 0.0), by(all.size(), 0.0);
+    for (std::size_t i = 0; i < at.size(); ++i)
+      if (at[i].status == LocateStatus::converged && !near_end(s, at[i].position_S.y(), 1e-3) &&
+          std::fabs(at[i].normal_S.dot(X.rotation.col(2))) > kLean)
+        weights[i] = 1.0 + 0.1 * static_cast<double>(i);
+    s.surface->pull_back(X, points, weights, by);
+    std::vector<std::size_t> order(all.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto most = order.begin() + static_cast<std::ptrdiff_t>(std::min(kMost, order.size()));
+    std::partial_sort(order.begin(), most, order.end(),
+                      [&](std::size_t a, std::size_t b) { return std::fabs(by[a]) > std::fabs(by[b]); });
+    for (auto one = order.begin(); one != most && by[*one] != 0.0; ++one) {
+      const double amount = kManySteps * all[*one].step;
+      std::vector<double> more(points.size()), less(points.size());
+      s.surface->changed(*one, amount)->heights_at(X, points, {more, {}, {}});
+      s.surface->changed(*one, -amount)->heights_at(X, points, {less, {}, {}});
+      double sum = 0.0, size = 0.0;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (weights[i] == 0.0) continue;
+        const double part = weights[i] * (more[i] - less[i]) / (2.0 * amount);
+        sum += part, size += std::fabs(part) * kSame + weights[i] * kRounding / amount;
+      }
+      tally.add(std::fabs(by[*one] - sum) / size, {static_cast<int>(k), points[4].x(), points[4].y()},
+                all[*one].name.c_str(), by[*one], sum);
+    }
+  }
+  return tally.finding();
+}
+
 constexpr Promise kPromises[] = {
     {"name", "it tells its backend, which way it faces and what it takes", 3, false, true, name},
     {"heights", "lines along the plane's normal meet the shape, where they meet it first", 1001, true, false, heights},
@@ -464,6 +509,7 @@ constexpr Promise kPromises[] = {
     {"many-bounds", "so do bounds of many rectangles at once", 2001, false, true, bounds_of<true>},
     {"locate", "located points lie where the heights are, normals point outwards", 1000, false, true, located},
     {"parameters", "parameters of located points lead back to them", 31, false, false, parameters},
+    {"pulled-back", "weights of heights pulled back to its parameters are derivatives", 1, false, false, pulled_back},
     {"curvatures", "principal curvatures are those of the heights", 51, false, true, curvatures},
 };
 

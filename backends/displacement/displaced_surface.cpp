@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,15 +63,15 @@ class DisplacedSurface final : public Surface, public Parametric {
   /// Those of the base, then those of the field, which give way where both have a name.
   std::vector<ShapeParameter> parameters() const override {
     std::vector<ShapeParameter> all = base_->parameters();
-    const auto taken = [&](const std::string& name) {
-      return std::any_of(all.begin(), all.end(), [&](const ShapeParameter& other) { return other.name == name; });
-    };
+    std::set<std::string> taken;
+    for (const ShapeParameter& one : all) taken.insert(one.name);
     for (ShapeParameter& one : field_->parameters()) {
-      while (taken(one.name)) one.name += "_above";
+      while (taken.contains(one.name)) one.name += "_above";
       all.push_back(std::move(one));
     }
     return all;
   }
+  std::size_t parameter_count() const override { return base_->parameter_count() + field_->parameter_count(); }
   Box3 bounds() const override {
     Box3 b = base_->bounds();
     if (body_ == Body::rail) {
@@ -84,6 +86,8 @@ class DisplacedSurface final : public Surface, public Parametric {
  private:
   std::shared_ptr<const Surface> do_change(std::size_t parameter, double amount) const override;
   bool do_heights_by(std::size_t parameter, const PlaneGrid& plane_grid, std::span<double> by) const override;
+  std::optional<HeightsBy> do_pull_back(const Pose& X_SP, std::span<const Vec2> points_P,
+                                        std::span<const double> weights, std::span<double> by) const override;
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
@@ -225,7 +229,7 @@ void DisplacedSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_
 }
 
 std::shared_ptr<const Surface> DisplacedSurface::do_change(std::size_t parameter, double amount) const {
-  const std::size_t of_base = base_->parameters().size();
+  const std::size_t of_base = base_->parameter_count();
   if (parameter < of_base)
     return std::make_shared<DisplacedSurface>(base_->changed(parameter, amount), field_, body_, backend_);
   std::shared_ptr<const OffsetField> field = field_->changed(parameter - of_base, amount);
@@ -234,13 +238,43 @@ std::shared_ptr<const Surface> DisplacedSurface::do_change(std::size_t parameter
 
 /// Offsets act along e, which leaves u and y as they are.
 bool DisplacedSurface::do_heights_by(std::size_t parameter, const PlaneGrid& plane_grid, std::span<double> by) const {
-  const std::size_t of_base = base_->parameters().size();
+  const std::size_t of_base = base_->parameter_count();
   if (parameter < of_base) return false;
   heights_by_displacement(*this, plane_grid, by, [&](const SurfacePoint& p) -> Vec3 {
     const NaturalPoint at(body_, p.position_S);
     return field_->by(parameter - of_base, at.u(), at.y) * at.e;
   });
   return true;
+}
+
+/// A point is q + d e, where q is the base's: what pulls at it pulls at q too, whose motion changes d and e.
+std::optional<HeightsBy> DisplacedSurface::do_pull_back(const Pose& X_SP, std::span<const Vec2> points_P,
+                                                        std::span<const double> weights, std::span<double> by) const {
+  const std::size_t of_base = base_->parameter_count();
+  std::vector<Vec2> below;
+  std::vector<Vec3> forces;
+  pull_back_by_displacement(
+      *this, X_SP, points_P, weights, [&](std::size_t i, const SurfacePoint& at, const Vec3& force) {
+        const NaturalPoint p(body_, at.position_S);
+        if (of_base < by.size()) field_->pull_back(p.u(), p.y, force.dot(p.e), by.subspan(of_base));
+        if (of_base == 0) return;
+        const OffsetJet d = field_->jet(p.u(), p.y);
+        const NaturalPoint q(body_, at.position_S - d.value * p.e);
+        Vec3 pulling =
+            force + q.along * (d.d_u * q.du_along * force.dot(q.e) + d.value * q.de_along * force.dot(q.along));
+        pulling.y() += d.d_y * force.dot(q.e);
+        const Vec3 back = d.value * (X_SP.rotation.transpose() * p.e);
+        below.emplace_back(points_P[i].x() - back.x(), points_P[i].y() - back.y());
+        forces.push_back(pulling);
+      });
+  if (of_base == 0) return HeightsBy::exact;
+  std::vector<SurfacePoint> at(below.size());
+  base_->locate(X_SP, below, at);
+  std::vector<double> of_heights(below.size(), 0.0);
+  const Vec3 up = X_SP.rotation.col(2);
+  for (std::size_t k = 0; k < at.size(); ++k)
+    if (at[k].status != LocateStatus::outside) of_heights[k] = forces[k].dot(at[k].normal_S) * up.dot(at[k].normal_S);
+  return base_->pull_back(X_SP, below, of_heights, by.first(of_base));
 }
 
 /// p = q + d e with the base's q(u, v) and the offset d at the station and y of q: neither changes along e.

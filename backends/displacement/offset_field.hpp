@@ -49,6 +49,7 @@ class OffsetField {
 
   /// Numbers that the field follows from, as Surface::parameters.
   virtual std::vector<ShapeParameter> parameters() const { return {}; }
+  virtual std::size_t parameter_count() const { return parameters().size(); }
   /// The field with one of them changed; null: there is no such field.
   virtual std::shared_ptr<const OffsetField> changed(std::size_t parameter, double amount) const {
     static_cast<void>(parameter), static_cast<void>(amount);
@@ -60,8 +61,15 @@ class OffsetField {
     return 0.0;
   }
 
+  /// Adds to each of sums a weight times the derivative by that parameter.
+  virtual void pull_back(double u, double y, double weight, std::span<double> sums) const;
+
   /// Memory taken by the field.
   virtual std::size_t memory_bytes() const = 0;
 };
+
+/// A field, which may be null, and an amount of another one.
+std::shared_ptr<const OffsetField> with_more(std::shared_ptr<const OffsetField> whole,
+                                             std::shared_ptr<const OffsetField> more, double amount);
 
 }  // namespace treadmark::displacement

@@ -38,7 +38,7 @@ void describe(const PlaneView& view, Facing facing, const Evaluated& e, SurfaceP
 }  // namespace
 
 MeshSurface::MeshSurface(PreparedMesh mesh, Body body, const MeshOptions& options, bool one_by_one)
-    : backend_(options.backend),
+    : options_(options),
       facing_(body == Body::wheel ? Facing::down : Facing::up),
       one_by_one_(one_by_one),
       mesh_(std::move(mesh)),

@@ -26,12 +26,19 @@ class MeshSurface final : public Surface {
   /// one_by_one: as make_mesh_oracle.
   MeshSurface(PreparedMesh mesh, Body body, const MeshOptions& options, bool one_by_one);
 
-  std::string_view backend() const override { return backend_; }
+  std::string_view backend() const override { return options_.backend; }
   Facing facing() const override { return facing_; }
   Box3 bounds() const override;
   std::size_t memory_bytes() const override;
+  /// All vertices, along their normals out of the material.
+  std::vector<ShapeParameter> parameters() const override;
+  std::size_t parameter_count() const override { return mesh_.vertices.size(); }
 
  private:
+  Body body() const { return facing_ == Facing::down ? Body::wheel : Body::rail; }
+  std::shared_ptr<const Surface> do_change(std::size_t parameter, double amount) const override;
+  std::optional<HeightsBy> do_pull_back(const Pose& X_SP, std::span<const Vec2> points_P,
+                                        std::span<const double> weights, std::span<double> by) const override;
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
@@ -41,7 +48,7 @@ class MeshSurface final : public Surface {
   void plain_height(const PlaneView& view, double x, double y, const Results& results, std::size_t i) const;
   const SmoothPatches* smooth() const { return smooth_ ? &*smooth_ : nullptr; }
 
-  std::string backend_;
+  MeshOptions options_;
   Facing facing_;
   bool one_by_one_;
   PreparedMesh mesh_;

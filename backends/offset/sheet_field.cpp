@@ -5,20 +5,24 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "treadmark/backends/offset/block_directory.hpp"
 #include "treadmark/backends/offset/coefficients.hpp"
 #include "treadmark/backends/offset/range_pyramid.hpp"
 #include "treadmark/backends/offset/sheet_kernel.hpp"
 #include "treadmark/core/kernel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/core/surface_change.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::offset {
 
 namespace {
 
-/// Of numbers up to 2^30 in size, which SheetField::within has made sure of.
+/// Of numbers up to 2^30 in size, which near_enough has made sure of.
 inline int round_down(double x) { return to_whole<int>(std::floor(x)); }
 
 /// Weights of a B-spline of one degree, with derivatives by voxel.
@@ -61,8 +65,57 @@ struct Weights {
   }
 };
 
+bool near_enough(double s, double t) {
+  constexpr double kFar = 1 << 30;
+  return std::fabs(s) < kFar && std::fabs(t) < kFar;
+}
+
+/// Of a B-spline, by voxel.
+struct Jet {
+  double h = 0.0, dh = 0.0, ddh = 0.0;
+};
+
+/// The field that has the coefficient 1 at a voxel and 0 elsewhere.
 template <int kDegree>
-class SheetField final : public displacement::OffsetField {
+class VoxelField final : public displacement::OffsetField {
+ public:
+  VoxelField(const SheetFrame& frame, int i, int j) : frame_(frame), i_(i), j_(j) {}
+
+  displacement::OffsetJet jet(double u, double y) const override {
+    const double s = frame_.along(u), t = frame_.across(y);
+    if (!near_enough((u - frame_.u0) / frame_.du, t) || !near_enough(s, t)) return {};
+    const Weights<kDegree> a(s), b(t);
+    double a2[kDegree + 1], b2[kDegree + 1];
+    a.second(s, a2);
+    b.second(t, b2);
+    Jet along, across;
+    for (int k = 0; k <= kDegree; ++k) {
+      if (frame_.wrapped(a.first + k) == i_) along.h += a.w[k], along.dh += a.w1[k], along.ddh += a2[k];
+      if (b.first + k == j_) across = {b.w[k], b.w1[k], b2[k]};
+    }
+    const double per_u = 1.0 / frame_.du, per_y = 1.0 / frame_.dy;
+    return {along.h * across.h,
+            along.dh * across.h * per_u,
+            along.h * across.dh * per_y,
+            along.ddh * across.h * per_u * per_u,
+            along.dh * across.dh * per_u * per_y,
+            along.h * across.ddh * per_y * per_y};
+  }
+  displacement::OffsetRange range(const Rectangle& uy) const override {
+    constexpr double kReach = 0.5 * (kDegree + 1);
+    const double from = frame_.across(uy.y_min), to = frame_.across(uy.y_max);
+    if (std::max(from, to) <= j_ - kReach || std::min(from, to) >= j_ + kReach) return {};
+    return {0.0, 1.0, 1.0 / std::fabs(frame_.du), 1.0 / std::fabs(frame_.dy)};
+  }
+  std::size_t memory_bytes() const override { return sizeof(*this); }
+
+ private:
+  SheetFrame frame_;
+  int i_, j_;
+};
+
+template <int kDegree>
+class SheetField final : public displacement::OffsetField, public std::enable_shared_from_this<SheetField<kDegree>> {
  public:
   explicit SheetField(std::shared_ptr<const SparseOffsets> offsets)
       : offsets_(std::move(offsets)),
@@ -72,14 +125,16 @@ class SheetField final : public displacement::OffsetField {
         ranges_(grid(), directory_, frame_, kDegree),
         view_(view()),
         kernel_(fastest_kernel<SheetKernel>().of_degree[kDegree]),
-        constant_(alike_all_round()) {}
+        constant_(alike_all_round()) {
+    for (const SheetEntry& entry : grid().blocks()) blocks_.push_back(entry.key);
+  }
   SheetField(const SheetField&) = delete;  // the view points into it
   SheetField& operator=(const SheetField&) = delete;
 
   displacement::OffsetJet jet(double u, double y) const override {
     const double s = frame_.along(u), t = frame_.across(y);
     displacement::OffsetJet j;
-    if (!within((u - frame_.u0) / frame_.du, t) || !within(s, t)) return j;  // so many turns say nothing
+    if (!near_enough((u - frame_.u0) / frame_.du, t) || !near_enough(s, t)) return j;  // so many turns say nothing
     const Weights<kDegree> a(s), b(t);
     double a2[kDegree + 1], b2[kDegree + 1];
     a.second(s, a2);
@@ -108,12 +163,55 @@ class SheetField final : public displacement::OffsetField {
 
   bool constant_along() const override { return constant_; }
 
+  std::vector<ShapeParameter> parameters() const override {
+    std::vector<ShapeParameter> all(parameter_count());
+    const bool rail = frame_.body == Body::rail;
+    const double r = offsets_->nominal_radius, step = step_over(std::min((rail ? 1.0 : r) * frame_.du, frame_.dy));
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const auto [i, j] = voxel(k);
+      const double u = frame_.u0 + i * frame_.du, y = frame_.y0 + j * frame_.dy;
+      const Vec3 place = rail ? Vec3(u, y, 0.0) : Vec3(r * std::sin(u), y, r * std::cos(u));
+      all[k] = {"node_" + std::to_string(i) + '_' + std::to_string(j), "m", step, place};
+    }
+    return all;
+  }
+  std::size_t parameter_count() const override { return blocks_.size() * kBlockI * kBlockJ; }
+  std::shared_ptr<const OffsetField> changed(std::size_t parameter, double amount) const override {
+    const auto [i, j] = voxel(parameter);
+    return displacement::with_more(this->shared_from_this(), std::make_shared<VoxelField<kDegree>>(frame_, i, j),
+                                   amount);
+  }
+  double by(std::size_t parameter, double u, double y) const override {
+    const auto [i, j] = voxel(parameter);
+    return VoxelField<kDegree>(frame_, i, j).jet(u, y).value;
+  }
+  void pull_back(double u, double y, double weight, std::span<double> sums) const override {
+    const double s = frame_.along(u), t = frame_.across(y);
+    if (!near_enough((u - frame_.u0) / frame_.du, t) || !near_enough(s, t)) return;
+    const Weights<kDegree> a(s), b(t);
+    for (int m = 0; m <= kDegree; ++m)
+      for (int n = 0; n <= kDegree; ++n) {
+        const int i = frame_.wrapped(a.first + m), j = b.first + n;
+        const BlockKey key{i >> 3, j >> 6};
+        const auto block = ranges::lower_bound(blocks_, key);
+        if (block == blocks_.end() || *block != key) continue;
+        const auto first = static_cast<std::size_t>(block - blocks_.begin()) * kBlockI * kBlockJ;
+        sums[first + static_cast<std::size_t>(((i & 7) << 6) | (j & 63))] += weight * a.w[m] * b.w[n];
+      }
+  }
+
   std::size_t memory_bytes() const override {
     return sizeof(*this) + offsets_->grid.memory_bytes() + (kDegree == 1 ? 0 : own_.memory_bytes()) +
-           directory_.memory_bytes() + ranges_.memory_bytes();
+           directory_.memory_bytes() + ranges_.memory_bytes() + blocks_.size() * sizeof(BlockKey);
   }
 
  private:
+  /// Whose coefficient a parameter is.
+  std::pair<int, int> voxel(std::size_t parameter) const {
+    const BlockKey& block = blocks_[parameter / (kBlockI * kBlockJ)];
+    const auto inside = static_cast<int>(parameter % (kBlockI * kBlockJ));
+    return {block.bi * kBlockI + inside / kBlockJ, block.bj * kBlockJ + inside % kBlockJ};
+  }
   static constexpr float kFinest = 1e-13f;  ///< [m]
   float smallest() const { return std::max(kFinest, static_cast<float>(1e-3 * offsets_->tolerance)); }
   const SheetGrid& grid() const { return kDegree == 1 ? offsets_->grid : own_; }
@@ -130,10 +228,6 @@ class SheetField final : public displacement::OffsetField {
         for (int j = bj * kBlockJ; j < (bj + 1) * kBlockJ; ++j)
           if (offsets_->grid.value(i, j) != offsets_->grid.value(0, j)) return false;
     return true;
-  }
-  static bool within(double s, double t) {
-    constexpr double kFar = 1 << 30;
-    return std::fabs(s) < kFar && std::fabs(t) < kFar;
   }
 
   static const float* find(const void* owner, std::int32_t bi, std::int32_t bj) {
@@ -165,6 +259,7 @@ class SheetField final : public displacement::OffsetField {
   SheetView view_;
   SheetPoints kernel_;
   bool constant_;
+  std::vector<BlockKey> blocks_;  ///< of the coefficients, in order
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "treadmark/backends/spline/profile_spline.hpp"
@@ -18,6 +19,10 @@ std::vector<ShapeParameter> node_parameters(const ProfileSpline& profile);
 
 /// How the profile changes with its z at a break: y = 0, z [-].
 ProfileSpline node_change(const ProfileSpline& profile, std::size_t node);
+
+/// Adds to by, of its z at all breaks, what weights of its z at places v along it come to.
+void pull_back_to_nodes(const ProfileSpline& profile, std::span<const double> v, std::span<const double> weights,
+                        std::span<double> by);
 
 /// The profile with its z at a break more by an amount [m].
 ProfileSpline with_node(const ProfileSpline& profile, std::size_t node, double amount);

@@ -92,6 +92,16 @@ bool PrismaticSurface::do_heights_by(std::size_t parameter, const PlaneGrid& pla
   return true;
 }
 
+std::optional<HeightsBy> PrismaticSurface::do_pull_back(const Pose& X_SP, std::span<const Vec2> points_P,
+                                                        std::span<const double> weights, std::span<double> by) const {
+  std::vector<double> v, pulling;
+  pull_back_by_displacement(
+      *this, X_SP, points_P, weights,
+      [&](std::size_t, const SurfacePoint& at, const Vec3& force) { v.push_back(at.v), pulling.push_back(force.z()); });
+  pull_back_to_nodes(profile_, v, pulling, by);
+  return HeightsBy::exact;
+}
+
 void PrismaticSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   ProfileView view(plane_grid.X_SP.rotation.col(2));

@@ -183,6 +183,17 @@ bool RevolutionSurface::do_heights_by(std::size_t parameter, const PlaneGrid& pl
   return true;
 }
 
+std::optional<HeightsBy> RevolutionSurface::do_pull_back(const Pose& X_SP, std::span<const Vec2> points_P,
+                                                         std::span<const double> weights, std::span<double> by) const {
+  std::vector<double> v, pulling;
+  pull_back_by_displacement(
+      *this, X_SP, points_P, weights, [&](std::size_t, const SurfacePoint& at, const Vec3& force) {
+        v.push_back(at.v), pulling.push_back(std::sin(at.u) * force.x() + std::cos(at.u) * force.z());
+      });
+  pull_back_to_nodes(profile_, v, pulling, by);
+  return HeightsBy::exact;
+}
+
 void RevolutionSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
   const GridLines g(plane_grid, wheel_lines_along_y(plane_grid.X_SP.rotation));
   const WheelView view(g.across, g.along, g.normal, g.origin);

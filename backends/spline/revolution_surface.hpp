@@ -30,11 +30,14 @@ class RevolutionSurface final : public Surface, public Parametric {
   std::size_t memory_bytes() const override;
   /// Of the points of the profile (node_change.hpp).
   std::vector<ShapeParameter> parameters() const override;
+  std::size_t parameter_count() const override { return profile_.breaks().size(); }
   std::vector<double> data_v() const override { return {profile_.breaks().begin(), profile_.breaks().end()}; }
 
  private:
   std::shared_ptr<const Surface> do_change(std::size_t parameter, double amount) const override;
   bool do_heights_by(std::size_t parameter, const PlaneGrid& plane_grid, std::span<double> by) const override;
+  std::optional<HeightsBy> do_pull_back(const Pose& X_SP, std::span<const Vec2> points_P,
+                                        std::span<const double> weights, std::span<double> by) const override;
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;

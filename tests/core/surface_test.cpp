@@ -69,6 +69,18 @@ TEST(SurfaceContract, DerivativesAreDifferencesWhereASurfaceKnowsNoBetterAndSayI
   EXPECT_THROW(surface.heights_by(0, grid, by), Error);
 }
 
+TEST(SurfaceContract, PulledBackWeightsAreSumsOfDerivatives) {
+  const Level surface(0.3);
+  const std::vector<Vec2> points{{0.0, 0.0}, {1.0, 2.0}, {3.0, 1.0}};
+  const std::vector<double> weights{2.0, 0.0, -5.0};
+  std::vector<double> by{7.0};
+  EXPECT_EQ(surface.pull_back({}, points, weights, by), HeightsBy::differences);
+  EXPECT_NEAR(by[0], 7.0 - 3.0 * 0.6, 1e-9) << "added";
+  EXPECT_THROW(surface.pull_back({}, points, {weights.data(), 2}, by), Error);
+  by.resize(2);
+  EXPECT_THROW(surface.pull_back({}, points, weights, by), Error);
+}
+
 TEST(Grid, RunsRowByRow) {
   const Grid2 g{1.0, 2.0, 0.1, 0.2, 3, 4};
   EXPECT_EQ(g.size(), 12u);

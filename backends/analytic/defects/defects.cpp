@@ -156,48 +156,25 @@ OffsetRange DefectField::range(const Rectangle& uy) const {
 
 namespace {
 
-/// A field with some of one of its shapes more, or less.
-class ChangedField final : public displacement::OffsetField {
+/// One shape of a field.
+class OneShape final : public displacement::OffsetField {
  public:
-  ChangedField(std::shared_ptr<const displacement::OffsetField> whole, const OffsetShape& shape, double amount)
-      : whole_(std::move(whole)), shape_(shape), amount_(amount) {}
+  OneShape(std::shared_ptr<const DefectField> whole, const OffsetShape& shape)
+      : whole_(std::move(whole)), shape_(shape) {}
 
-  OffsetJet jet(double u, double y) const override {
-    OffsetJet sum = whole_->jet(u, y);
-    const OffsetJet more = shape_.jet(u, y);
-    sum.value += amount_ * more.value;
-    sum.d_u += amount_ * more.d_u, sum.d_y += amount_ * more.d_y;
-    sum.d_uu += amount_ * more.d_uu, sum.d_uy += amount_ * more.d_uy, sum.d_yy += amount_ * more.d_yy;
-    return sum;
-  }
-
+  OffsetJet jet(double u, double y) const override { return shape_.jet(u, y); }
   void evaluate(std::span<const double> u, std::span<const double> y, std::span<double> value, std::span<double> d_u,
                 std::span<double> d_y) const override {
-    whole_->evaluate(u, y, value, d_u, d_y);
-    std::vector<double> more(value.size()), more_u(d_u.size()), more_y(d_y.size());
-    shape_.add(u, y, more, more_u, more_y);
-    const auto add = [&](std::span<double> to, const std::vector<double>& from) {
-      for (std::size_t i = 0; i < to.size(); ++i) to[i] += amount_ * from[i];
-    };
-    add(value, more), add(d_u, more_u), add(d_y, more_y);
+    for (const auto array : {value, d_u, d_y}) std::fill(array.begin(), array.end(), 0.0);
+    shape_.add(u, y, value, d_u, d_y);
   }
-
-  OffsetRange range(const Rectangle& uy) const override {
-    OffsetRange sum = whole_->range(uy);
-    const OffsetRange more = shape_.range(uy);
-    const auto [low, high] = std::minmax({amount_ * more.low, amount_ * more.high});
-    sum.low += low, sum.high += high;
-    sum.max_d_u += std::abs(amount_) * more.max_d_u, sum.max_d_y += std::abs(amount_) * more.max_d_y;
-    return sum;
-  }
-
+  OffsetRange range(const Rectangle& uy) const override { return shape_.range(uy); }
   bool constant_along() const override { return whole_->constant_along(); }
-  std::size_t memory_bytes() const override { return sizeof(*this) + whole_->memory_bytes(); }
+  std::size_t memory_bytes() const override { return sizeof(*this); }
 
  private:
-  std::shared_ptr<const displacement::OffsetField> whole_;  ///< which holds the shape
+  std::shared_ptr<const DefectField> whole_;  ///< which holds the shape
   const OffsetShape& shape_;
-  double amount_;
 };
 
 }  // namespace
@@ -210,7 +187,8 @@ std::vector<ShapeParameter> DefectField::parameters() const {
 }
 
 std::shared_ptr<const displacement::OffsetField> DefectField::changed(std::size_t parameter, double amount) const {
-  return std::make_shared<ChangedField>(shared_from_this(), *shapes_[parameter], amount);
+  const std::shared_ptr<const DefectField> whole = shared_from_this();
+  return displacement::with_more(whole, std::make_shared<OneShape>(whole, *shapes_[parameter]), amount);
 }
 
 std::size_t DefectField::memory_bytes() const {

@@ -41,6 +41,7 @@ class DefectField final : public displacement::OffsetField, public std::enable_s
                 std::span<double> d_y) const override;
   displacement::OffsetRange range(const Rectangle& uy) const override;
   std::vector<ShapeParameter> parameters() const override;
+  std::size_t parameter_count() const override { return shapes_.size(); }
   std::shared_ptr<const displacement::OffsetField> changed(std::size_t parameter, double amount) const override;
   double by(std::size_t parameter, double u, double y) const override { return shapes_[parameter]->jet(u, y).value; }
   std::size_t memory_bytes() const override;

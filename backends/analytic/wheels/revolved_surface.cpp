@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <string>
 
 #include "treadmark/backends/analytic/wheels/wheel_bounds.hpp"
 #include "treadmark/backends/analytic/wheels/wheel_lines.hpp"
+#include "treadmark/backends/displacement/displaced_surface.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/surface_change.hpp"
 
 namespace treadmark::analytic {
 
@@ -39,7 +43,90 @@ void fill_shape(const WheelBody& body, const WheelHit& hit, SurfacePoint& point)
   point.v = hit.y;
 }
 
+/// What a piece of a profile that bends by 1/m more adds to the radius.
+class BentPiece final : public displacement::OffsetField {
+ public:
+  BentPiece(const GraphCurve& curve, int piece)
+      : from_(curve.piece_start(piece)), to_(curve.piece_end(piece)), held_(std::clamp(0.0, from_, to_)) {}
+
+  displacement::OffsetJet jet(double, double y) const override {
+    const double inside = std::clamp(y, from_, to_), lever = inside - held_;
+    return {0.5 * lever * lever + lever * (y - inside), 0.0, lever, 0.0, 0.0, inside == y ? 1.0 : 0.0};
+  }
+  displacement::OffsetRange range(const Rectangle& uy) const override {
+    // it grows from the piece's held end on both sides, and so does the size of its slope
+    const displacement::OffsetJet a = jet(0.0, uy.y_min), b = jet(0.0, uy.y_max);
+    const bool holds = uy.y_min <= held_ && held_ <= uy.y_max;
+    return {holds ? 0.0 : std::min(a.value, b.value), std::max(a.value, b.value), 0.0,
+            std::max(std::fabs(a.d_y), std::fabs(b.d_y))};
+  }
+  bool constant_along() const override { return true; }
+  std::size_t memory_bytes() const override { return sizeof(*this); }
+
+ private:
+  double from_, to_, held_;
+};
+
+/// What flats take off the radius, once more.
+class FlatsAgain final : public displacement::OffsetField {
+ public:
+  explicit FlatsAgain(FlatDepth flats) : flats_(std::move(flats)) {}
+
+  displacement::OffsetJet jet(double u, double y) const override {
+    const DepthJet d = flats_.jet(u, y);
+    return {-d.d, -d.d_theta, -d.d_y, -d.d_theta_theta, -d.d_theta_y, -d.d_y_y};
+  }
+  displacement::OffsetRange range(const Rectangle& uy) const override {
+    const FlatDepth::Range r =
+        flats_.range(0.5 * (uy.x_min + uy.x_max), 0.5 * (uy.x_max - uy.x_min), uy.y_min, uy.y_max);
+    return {-r.high, -r.low, r.max_d_theta, r.max_d_y};
+  }
+  std::size_t memory_bytes() const override { return sizeof(*this) + flats_.memory_bytes(); }
+
+ private:
+  FlatDepth flats_;
+};
+
 }  // namespace
+
+std::vector<ShapeParameter> RevolvedSurface::parameters() const {
+  constexpr double kFar = 5e-8, kAmount = 1e-4;  // [m] by which the ends move, of depths of some tenths of a millimetre
+  const GraphCurve& curve = body_.curve;
+  std::vector<ShapeParameter> all;
+  for (int k = 0; k < curve.piece_count(); ++k) {
+    const double from = curve.piece_start(k), to = curve.piece_end(k), y = 0.5 * (from + to);
+    const Vec3 place(0.0, y, body_.nominal_radius + curve.height(y, k));
+    all.push_back(
+        {"piece_" + std::to_string(k) + "_bend", "1/m", kFar / ((to - from) * (curve.y_max() - curve.y_min())), place});
+  }
+  if (!body_.flats.empty()) all.push_back({"flats", "1", kAmount});
+  return all;
+}
+
+std::shared_ptr<const Surface> RevolvedSurface::do_change(std::size_t parameter, double amount) const {
+  std::shared_ptr<const displacement::OffsetField> part;
+  if (parameter < static_cast<std::size_t>(body_.curve.piece_count()))
+    part = std::make_shared<BentPiece>(body_.curve, static_cast<int>(parameter));
+  else
+    part = std::make_shared<FlatsAgain>(body_.flats);
+  return displacement::make_displaced_surface(std::make_shared<RevolvedSurface>(*this),
+                                              displacement::with_more(nullptr, std::move(part), amount), Body::wheel,
+                                              std::string(backend()));
+}
+
+std::optional<HeightsBy> RevolvedSurface::do_pull_back(const Pose& X_SP, std::span<const Vec2> points_P,
+                                                       std::span<const double> weights, std::span<double> by) const {
+  std::vector<BentPiece> pieces;
+  for (int k = 0; k < body_.curve.piece_count(); ++k) pieces.emplace_back(body_.curve, k);
+  pull_back_by_displacement(*this, X_SP, points_P, weights,
+                            [&](std::size_t, const SurfacePoint& at, const Vec3& force) {
+                              const double pull = std::sin(at.u) * force.x() + std::cos(at.u) * force.z();
+                              for (std::size_t k = 0; k < pieces.size(); ++k)
+                                by[k] += pull * pieces[k].jet(at.u, at.v).value;
+                              if (pieces.size() < by.size()) by.back() -= pull * body_.flats.jet(at.u, at.v).d;
+                            });
+  return HeightsBy::exact;
+}
 
 void RevolvedSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
   const WheelLines lines(body_, plane_grid.X_SP, out);

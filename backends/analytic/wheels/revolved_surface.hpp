@@ -29,8 +29,17 @@ class RevolvedSurface final : public Surface, public Parametric {
     return sizeof(*this) + body_.chords.memory_bytes() + body_.hull.memory_bytes() + body_.flats.memory_bytes() +
            static_cast<std::size_t>(body_.curve.piece_count()) * sizeof(PolynomialGraph);
   }
+  /// How much each arc, line or polynomial of the profile bends: 1 more is 1/m more of d2r/dy2 between its ends, the
+  /// profile beyond following it, with the tape circle y = 0 held. Then the amount of all flats: 1 is all once more.
+  std::vector<ShapeParameter> parameters() const override;
+  std::size_t parameter_count() const override {
+    return static_cast<std::size_t>(body_.curve.piece_count()) + (body_.flats.empty() ? 0 : 1);
+  }
 
  private:
+  std::shared_ptr<const Surface> do_change(std::size_t parameter, double amount) const override;
+  std::optional<HeightsBy> do_pull_back(const Pose& X_SP, std::span<const Vec2> points_P,
+                                        std::span<const double> weights, std::span<double> by) const override;
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;

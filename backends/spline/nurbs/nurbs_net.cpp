@@ -145,6 +145,25 @@ NurbsNet::Range NurbsNet::range() const {
   return all;
 }
 
+Vec3 NurbsNet::number_place(std::size_t number) const {
+  if (by_corners()) return corners_[number / 4].p;
+  const Quad& q = points_[number];
+  return Vec3(q.x(), q.y(), q.z()) / q.w();
+}
+
+NurbsNet NurbsNet::with_number(std::size_t number, const Vec3& by) const {
+  if (!by_corners()) {
+    std::vector<Quad> points = points_;
+    const double w = points[number].w();
+    points[number] = points[number] + w * Quad(by.x(), by.y(), by.z(), 0.0);
+    return NurbsNet(u_, v_, std::move(points));
+  }
+  constexpr Vec3 Corner::*kMembers[] = {&Corner::p, &Corner::p_u, &Corner::p_v, &Corner::p_uv};
+  std::vector<Corner> corners = corners_;
+  corners[number / 4].*kMembers[number % 4] += by;
+  return is_list() ? NurbsNet(cells_, std::move(corners)) : NurbsNet(u_, v_, std::move(corners));
+}
+
 NurbsNet::Place NurbsNet::find(double u, double v) const {
   int iu = 0, iv = 0;
   if (is_list()) {

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -74,6 +75,16 @@ class NurbsNet {
   };
   Place find(double u, double v) const;
 
+  /// Numbers of the net: by how much its control points, or positions and derivatives at corners (p, p_u, p_v, p_uv one
+  /// after the other), go along directions of their own.
+  std::size_t numbers() const { return by_corners() ? 4 * corners_.size() : points_.size(); }
+  /// The control point or corner of a number.
+  Vec3 number_place(std::size_t number) const;
+  NurbsNet with_number(std::size_t number, const Vec3& by) const;
+  /// Calls use(number, share) for all on which a place depends: it goes by share of the number along its direction.
+  template <class Use>
+  void each_number(const Place& place, const Use& use) const;
+
   /// Calls use(iu, iv, centre, half) for every patch whose box passes wanted(centre, half); so must all boxes above it.
   template <class Wanted, class Use>
   void visit(const Wanted& wanted, const Use& use) const {
@@ -108,6 +119,12 @@ class NurbsNet {
   }
 
   void build_boxes();
+  std::size_t corner_number(int iu, int iv, std::size_t i, std::size_t j) const {
+    const auto u = static_cast<std::size_t>(iu);
+    if (is_list()) return cells_[u].corner[i][j];
+    const std::size_t row = v_.size(), first = (u + i) * row;
+    return (first < corners_.size() ? first : 0) + static_cast<std::size_t>(iv) + j;
+  }
 
   std::vector<double> u_, v_;  // of a grid
   std::vector<Cell> cells_;    // of a list
@@ -116,5 +133,38 @@ class NurbsNet {
   std::vector<Level> levels_;
   Box3 bounds_;  // of all control points, in double precision: the ends of the surface are those of its box
 };
+
+template <class Use>
+void NurbsNet::each_number(const Place& place, const Use& use) const {
+  const double x = place.s + 0.5, y = place.t + 0.5;
+  if (by_corners()) {
+    const Range r = range(place.iu, place.iv);
+    // Hermite's cubics: [end][value, derivative]
+    const auto cubics = [](double at, double size) {
+      const double a = 1.0 - at;
+      return std::array<std::array<double, 2>, 2>{
+          {{a * a * (1.0 + 2.0 * at), size * at * a * a}, {at * at * (1.0 + 2.0 * a), -size * at * at * a}}};
+    };
+    const auto along = cubics(x, r.u1 - r.u0), across = cubics(y, r.v1 - r.v0);
+    for (std::size_t i = 0; i < 2; ++i)
+      for (std::size_t j = 0; j < 2; ++j)
+        for (std::size_t m = 0; m < 4; ++m)
+          use(4 * corner_number(place.iu, place.iv, i, j) + m, along[i][m % 2] * across[j][m / 2]);
+    return;
+  }
+  const auto cubics = [](double at) {
+    const double a = 1.0 - at;
+    return std::array{a * a * a, 3.0 * a * a * at, 3.0 * a * at * at, at * at * at};
+  };
+  const auto along = cubics(x), across = cubics(y);
+  const std::size_t row = 3 * (v_.size() - 1) + 1,
+                    first = 3 * (static_cast<std::size_t>(place.iu) * row + static_cast<std::size_t>(place.iv));
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j) sum += along[i] * across[j] * points_[first + i * row + j].w();
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j)
+      use(first + i * row + j, along[i] * across[j] * points_[first + i * row + j].w() / sum);
+}
 
 }  // namespace treadmark::spline

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include "treadmark/backends/spline/banded.hpp"
 #include "treadmark/backends/spline/nurbs/nurbs_view.hpp"
@@ -16,6 +17,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/kernel.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/surface_change.hpp"
 
 namespace treadmark::spline {
 
@@ -73,6 +75,60 @@ SurfaceDerivatives NurbsSurface::derivatives_at(const NurbsNet::Place& place) co
 }
 
 SurfaceDerivatives NurbsSurface::derivatives(double u, double v) const { return derivatives_at(net_.find(u, v)); }
+
+Vec3 NurbsSurface::direction_of(std::size_t parameter) const {
+  if (body_ == Body::rail) return Vec3::UnitZ();
+  const Vec3 p = net_.number_place(parameter);
+  return Vec3(p.x(), 0.0, p.z()).normalized();
+}
+
+std::vector<ShapeParameter> NurbsSurface::parameters() const {
+  constexpr double kWidth = 0.5e-3;  // [m] of patches, or less
+  const bool wheel = body_ == Body::wheel;
+  std::vector<ShapeParameter> all(net_.numbers());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Vec3 place = net_.number_place(k);
+    all[k] = {"control_" + std::to_string(k), "m", step_over(kWidth), place};
+    if (!net_.by_corners()) continue;
+    struct Kind {
+      const char *ending, *unit;
+      double per;  ///< of a length of the surface
+    };
+    const double per_u = wheel ? std::hypot(place.x(), place.z()) / kWidth : 1.0 / kWidth, per_v = 1.0 / kWidth;
+    const Kind kinds[] = {{"", "m", 1.0},
+                          {"_u", wheel ? "m/rad" : "1", per_u},
+                          {"_v", "1", per_v},
+                          {"_uv", wheel ? "1/rad" : "1/m", per_u * per_v}};
+    const Kind& kind = kinds[k % 4];
+    all[k].name = "corner_" + std::to_string(k / 4) + kind.ending;
+    all[k].unit = kind.unit, all[k].step *= kind.per;
+  }
+  return all;
+}
+
+std::shared_ptr<const Surface> NurbsSurface::do_change(std::size_t parameter, double amount) const {
+  return std::make_shared<NurbsSurface>(net_.with_number(parameter, amount * direction_of(parameter)), body_, backend_);
+}
+
+std::optional<HeightsBy> NurbsSurface::do_pull_back(const Pose& X_SP, std::span<const Vec2> points_P,
+                                                    std::span<const double> weights, std::span<double> by) const {
+  struct Found {
+    bool found = false;
+    NurbsNet::Place place{};
+  };
+  std::vector<Found> hits(points_P.size());
+  for_hits(net_, X_SP, facing(), points_P, true, false, [&](const ListedPoint& p, bool found, const NurbsHit& hit) {
+    hits[p.index] = {found, {hit.iu, hit.iv, hit.s, hit.t}};
+  });
+  const Vec3 up = X_SP.rotation.col(2);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!hits[i].found) continue;
+    const SurfaceDerivatives d = derivatives_at(hits[i].place);
+    const Vec3 normal = d.pu.cross(d.pv), force = weights[i] / up.dot(normal) * normal;
+    net_.each_number(hits[i].place, [&](std::size_t k, double share) { by[k] += share * force.dot(direction_of(k)); });
+  }
+  return HeightsBy::exact;
+}
 
 void NurbsSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
   const Grid2& g = plane_grid.grid;

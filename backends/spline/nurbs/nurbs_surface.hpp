@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <memory>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -34,8 +37,15 @@ class NurbsSurface final : public Surface, public Parametric {
   Facing facing() const override { return body_ == Body::rail ? Facing::up : Facing::down; }
   Box3 bounds() const override { return net_.bounds(); }
   std::size_t memory_bytes() const override { return sizeof(*this) + net_.memory_bytes() + hull_.memory_bytes(); }
+  /// NurbsNet::numbers, along z of a rail or the radius of a wheel where they are.
+  std::vector<ShapeParameter> parameters() const override;
+  std::size_t parameter_count() const override { return net_.numbers(); }
 
  private:
+  std::shared_ptr<const Surface> do_change(std::size_t parameter, double amount) const override;
+  std::optional<HeightsBy> do_pull_back(const Pose& X_SP, std::span<const Vec2> points_P,
+                                        std::span<const double> weights, std::span<double> by) const override;
+  Vec3 direction_of(std::size_t parameter) const;
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;

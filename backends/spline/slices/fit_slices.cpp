@@ -233,6 +233,8 @@ SliceNet fit_along(const SliceSet& slices, const std::vector<std::vector<NetPair
   const SpanPlan plan = plan_spans(slices, all);
   SliceNet net(plan.starts, plan.end, slices.body == Body::wheel, positions, across);
 
+  net.hold_ends(plan.interval.front() == kBeforeFirst, plan.interval.back() == kAfterLast);
+
   // Along every coefficient line, each run of slices that have it is a spline of its own.
   using Run = std::pair<std::size_t, std::size_t>;  // first and last slice
   const std::size_t n = all.u.size();

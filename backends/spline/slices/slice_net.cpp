@@ -59,6 +59,34 @@ NetSecond SliceNet::second_at(const Place& place, int cell, double f) const {
   return sum;
 }
 
+SliceNet::Number SliceNet::number(std::size_t k) const {
+  const auto count = static_cast<std::size_t>(lines());
+  const int at = static_cast<int>(k / 2 / count), knot = at + (held_first_ ? 1 : 0);
+  return {at, static_cast<int>(k / 2 % count), k % 2 == 1, starts_[static_cast<std::size_t>(knot)]};
+}
+
+SliceNet SliceNet::with_number(std::size_t k, double amount) const {
+  SliceNet out = *this;
+  const Number n = number(k);
+  const auto add = [&](int span, const std::array<double, 4>& powers) {
+    LineCubic cubic = out.line(span, n.line);
+    for (std::size_t m = 0; m < powers.size(); ++m) cubic.power[m].w += amount * powers[m];
+    out.set_line(span, n.line, cubic);
+  };
+  for (int span = 0; span < spans(); ++span) {
+    if (held(span)) {
+      if (!n.slope && station_beside(span) == n.station) add(span, {1.0, 0.0, 0.0, 0.0});
+      continue;
+    }
+    const double h = span_end(span) - span_start(span), hh = h * h;
+    if (station(span, false) == n.station)
+      add(span, n.slope ? std::array{0.0, 1.0, -2.0 / h, 1.0 / hh} : std::array{1.0, 0.0, -3.0 / hh, 2.0 / (hh * h)});
+    if (station(span, true) == n.station)
+      add(span, n.slope ? std::array{0.0, 0.0, -1.0 / h, 1.0 / hh} : std::array{0.0, 0.0, 3.0 / hh, -2.0 / (hh * h)});
+  }
+  return out;
+}
+
 bool SliceNet::hull(int span, int cell, double u0, double u1, Interval& y, Interval& w) const {
   y = w = Interval::none();
   // The constant ends go on beyond their span.

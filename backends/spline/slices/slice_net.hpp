@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -72,6 +73,8 @@ class SliceNet {
     for (std::size_t m = 0; m < 4; ++m)
       p[2 * m * stride_] = cubic.power[m].y, p[(2 * m + 1) * stride_] = cubic.power[m].w;
   }
+  /// The first and the last span are the constant ends of what lies between them.
+  void hold_ends(bool first, bool last) { held_first_ = first, held_last_ = last; }
   NetArrays arrays() const {
     return {cubics_.data(), starts_.data(), static_cast<long>(8 * stride_), static_cast<long>(stride_),
             spans(),        straight()};
@@ -92,6 +95,21 @@ class SliceNet {
   NetValue at(const Place& place, int cell, double f) const;
   NetSecond second_at(const Place& place, int cell, double f) const;
 
+  /// Numbers that w follows from, of each line at each station where spans meet or end: w there and its derivative by
+  /// u, one after the other; along a span w is the cubic that has those of its ends, and a constant end has the value
+  /// beside it.
+  std::size_t numbers() const { return 2 * static_cast<std::size_t>(lines()) * static_cast<std::size_t>(stations()); }
+  struct Number {
+    int station, line;
+    bool slope;  ///< by u
+    double u;
+  };
+  Number number(std::size_t k) const;
+  /// Calls use(k, share) for all that w depends on at a place of a cell; it is the sum of share times number.
+  template <class Use>
+  void each_number(const Place& place, int cell, double f, const Use& use) const;
+  SliceNet with_number(std::size_t k, double amount) const;
+
   /// Ranges of y and w over a cell for u0 <= u <= u1 within one span, from control points; false if there is no
   /// surface.
   bool hull(int span, int cell, double u0, double u1, Interval& y, Interval& w) const;
@@ -100,6 +118,16 @@ class SliceNet {
   std::size_t index(int span, int line) const {
     return static_cast<std::size_t>(span) * 8 * stride_ + static_cast<std::size_t>(line);
   }
+  bool held(int span) const { return (held_first_ && span == 0) || (held_last_ && span + 1 == spans()); }
+  bool whole_turn() const { return closed_ && !held_first_ && !held_last_; }
+  int stations() const { return whole_turn() ? spans() : spans() + 1 - (held_first_ ? 1 : 0) - (held_last_ ? 1 : 0); }
+  /// At the start of a span that is not held, or at its end.
+  int station(int span, bool end) const {
+    const int k = span + (end ? 1 : 0);
+    return whole_turn() && k == spans() ? 0 : k - (held_first_ ? 1 : 0);
+  }
+  /// Of a held span.
+  int station_beside(int span) const { return held_first_ && span == 0 ? 0 : stations() - 1; }
   const double* numbers(int span, int line) const { return cubics_.data() + index(span, line); }
   /// One line: value and derivatives by u.
   struct LineValue {
@@ -109,7 +137,7 @@ class SliceNet {
   NetValue straight_at(const Place& place, int cell, double f) const;
 
   std::vector<double> starts_;  // of the spans, and the end of the last
-  bool closed_;
+  bool closed_, held_first_ = false, held_last_ = false;
   Across across_;
   int positions_;
   std::size_t stride_;  // from a power to the next: lines and NaN up to where four breaks at a time may read
@@ -123,6 +151,24 @@ using lanes::Pair;
 inline Pair both(double x) { return Pair{x, x}; }
 inline NetPair store(const Pair& p) { return {p[0], p[1]}; }
 }  // namespace detail
+
+template <class Use>
+void SliceNet::each_number(const Place& place, int cell, double f, const Use& use) const {
+  const double g = 1.0 - f;
+  const std::array<double, 4> across = straight() ? std::array{0.0, g, f, 0.0}
+                                                  : std::array{g * g * g / 6.0, 2.0 / 3.0 - f * f * (1.0 - 0.5 * f),
+                                                               2.0 / 3.0 - g * g * (1.0 - 0.5 * g), f * f * f / 6.0};
+  const auto share = [&](int at, std::size_t slope, double along) {
+    for (std::size_t b = 0; b < across.size(); ++b)
+      if (across[b] != 0.0) use(2 * (static_cast<std::size_t>(at * lines() + cell) + b) + slope, along * across[b]);
+  };
+  if (held(place.span)) return share(station_beside(place.span), 0, 1.0);
+  const double h = span_end(place.span) - span_start(place.span), x = place.t / h, y = 1.0 - x;
+  share(station(place.span, false), 0, y * y * (1.0 + 2.0 * x));
+  share(station(place.span, false), 1, h * x * y * y);
+  share(station(place.span, true), 0, x * x * (1.0 + 2.0 * y));
+  share(station(place.span, true), 1, -h * x * x * y);
+}
 
 inline SliceNet::Place SliceNet::find(double u, int hint) const {
   constexpr double kTurn = 2.0 * std::numbers::pi;

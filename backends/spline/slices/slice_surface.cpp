@@ -7,6 +7,7 @@
 #include <cstring>
 #include <functional>
 #include <numeric>
+#include <string>
 #include <type_traits>
 
 #include "treadmark/backends/spline/grid_lines.hpp"
@@ -17,6 +18,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/core/surface_change.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::spline {
@@ -194,7 +196,10 @@ void for_hits(const SliceNet& net, const SliceHulls& hulls, const Geometry& geom
 
 template <class Geometry>
 SliceSurface<Geometry>::SliceSurface(SliceNet net, double nominal_radius)
-    : net_(with_radius<Geometry>(std::move(net), nominal_radius)), geometry_(nominal_radius), hulls_(net_) {
+    : net_(with_radius<Geometry>(std::move(net), nominal_radius)),
+      nominal_radius_(nominal_radius),
+      geometry_(nominal_radius),
+      hulls_(net_) {
   if (hulls_.empty()) throw Error(ErrorKind::input_data, "the slices leave no surface");
   if (kIsWheel<Geometry> && !(hulls_.all_w().low > 0.0))
     throw Error(ErrorKind::configuration, "a wheel's radius must be positive on all slices", {},
@@ -230,6 +235,43 @@ std::vector<double> SliceSurface<Geometry>::data_v() const {
   std::vector<double> v(static_cast<std::size_t>(net_.cells()) + 1);
   std::iota(v.begin(), v.end(), 1.0);
   return v;
+}
+
+template <class Geometry>
+std::vector<ShapeParameter> SliceSurface<Geometry>::parameters() const {
+  constexpr double kWidth = 0.5e-3;   // [m] of cells
+  const int some = net_.spans() / 2;  // not one of the ends
+  const double spacing = net_.span_end(some) - net_.span_start(some);
+  std::vector<ShapeParameter> all(net_.numbers());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const SliceNet::Number n = net_.number(k);
+    const Vec3 place = point(n.u, std::clamp<double>(n.line, 1.0, net_.positions()));
+    all[k] = {"station_" + std::to_string(n.station) + "_line_" + std::to_string(n.line), "m", step_over(kWidth),
+              place};
+    if (!n.slope) continue;
+    all[k].name += "_slope", all[k].unit = kIsWheel<Geometry> ? "m/rad" : "1", all[k].step /= spacing;
+  }
+  return all;
+}
+
+template <class Geometry>
+std::shared_ptr<const Surface> SliceSurface<Geometry>::do_change(std::size_t parameter, double amount) const {
+  return std::make_shared<SliceSurface>(with_radius<Geometry>(net_.with_number(parameter, amount), -nominal_radius_),
+                                        nominal_radius_);
+}
+
+template <class Geometry>
+std::optional<HeightsBy> SliceSurface<Geometry>::do_pull_back(const Pose& X_SP, std::span<const Vec2> points_P,
+                                                              std::span<const double> weights,
+                                                              std::span<double> by) const {
+  pull_back_by_displacement(
+      *this, X_SP, points_P, weights, [&](std::size_t, const SurfacePoint& at, const Vec3& force) {
+        const double pull = kIsWheel<Geometry> ? std::sin(at.u) * force.x() + std::cos(at.u) * force.z() : force.z();
+        const int cell = std::clamp(to_whole<int>(at.v) - 1, 0, net_.cells() - 1);
+        net_.each_number(net_.find(at.u), cell, at.v - (cell + 1),
+                         [&](std::size_t k, double share) { by[k] += share * pull; });
+      });
+  return HeightsBy::exact;
 }
 
 template <class Geometry>

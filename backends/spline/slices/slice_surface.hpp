@@ -27,8 +27,14 @@ class SliceSurface final : public Surface, public Parametric {
   Box3 bounds() const override;
   std::size_t memory_bytes() const override;
   std::vector<double> data_v() const override;
+  /// SliceNet::numbers: z of a rail, the radius of a wheel at the stations, and how they go on along them.
+  std::vector<ShapeParameter> parameters() const override;
+  std::size_t parameter_count() const override { return net_.numbers(); }
 
  private:
+  std::shared_ptr<const Surface> do_change(std::size_t parameter, double amount) const override;
+  std::optional<HeightsBy> do_pull_back(const Pose& X_SP, std::span<const Vec2> points_P,
+                                        std::span<const double> weights, std::span<double> by) const override;
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
@@ -36,7 +42,8 @@ class SliceSurface final : public Surface, public Parametric {
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
   void do_grid_bounds(const Pose& X_SP, const RectangleGrid& rectangles_P, std::span<HeightBounds> out) const override;
 
-  SliceNet net_;
+  SliceNet net_;  ///< of a wheel with its radius
+  double nominal_radius_;
   Geometry geometry_;
   SliceHulls hulls_;
 };

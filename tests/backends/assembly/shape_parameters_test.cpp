@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 #include "treadmark/backends/analytic/defects/defects.hpp"
@@ -17,23 +18,32 @@
 namespace treadmark::assembly {
 namespace {
 
-/// The one parameter, against heights of the surfaces with it changed.
+/// The last parameter, against heights of the surfaces with it changed.
 void expect_one_parameter(const Surface& surface, HeightsBy how) {
   constexpr double kAmount = 1e-3, kSame = 1e-9;  // of offsets of a tenth of a millimetre
   const PlaneGrid plane{Pose{}, {-20e-3, -10e-3, 5e-3, 5e-3, 9, 5}};
-  ASSERT_EQ(surface.parameters().size(), 1u);
-  EXPECT_EQ(surface.parameters()[0].name, "shape_0");
+  const std::vector<ShapeParameter> all = surface.parameters();
+  ASSERT_EQ(surface.parameter_count(), all.size());
+  const std::size_t last = all.size() - 1;  // behind those of the base
+  EXPECT_EQ(all[last].name, "shape_0");
   std::vector<double> by(plane.grid.size()), more(by.size()), less(by.size());
-  EXPECT_EQ(surface.heights_by(0, plane, by), how);
-  surface.changed(0, kAmount)->heights(plane, {more, {}, {}});
-  surface.changed(0, -kAmount)->heights(plane, {less, {}, {}});
+  EXPECT_EQ(surface.heights_by(last, plane, by), how);
+  surface.changed(last, kAmount)->heights(plane, {more, {}, {}});
+  surface.changed(last, -kAmount)->heights(plane, {less, {}, {}});
   double largest = 0.0;
   for (std::size_t i = 0; i < by.size(); ++i) {
     EXPECT_NEAR(by[i], (more[i] - less[i]) / (2.0 * kAmount), kSame) << i;
     largest = std::max(largest, std::abs(by[i]));
   }
   EXPECT_GT(largest, 5e-5);
-  EXPECT_THROW(surface.changed(1, kAmount), Error);
+  EXPECT_THROW(surface.changed(all.size(), kAmount), Error);
+  // backwards: the same of all points together
+  std::vector<Vec2> points;
+  for (int iy = 0; iy < plane.grid.ny; ++iy)
+    for (int ix = 0; ix < plane.grid.nx; ++ix) points.emplace_back(plane.grid.x(ix), plane.grid.y(iy));
+  std::vector<double> sums(all.size(), 0.0);
+  surface.pull_back(plane.X_SP, points, std::vector<double>(points.size(), 1.0), sums);
+  EXPECT_NEAR(sums[last], std::accumulate(by.begin(), by.end(), 0.0), kSame * static_cast<double>(by.size()));
 }
 
 TEST(ShapeParameters, StayWhereASurfaceIsNamedAnewCutOrMoved) {
@@ -65,9 +75,9 @@ TEST(ShapeParameters, AreOfDifferentNames) {
   const auto once = analytic::add_defects(analytic::make_prismatic_surface(analytic::cylinder_chain(0.04, 0.7)), squat,
                                           Body::rail, 0.0);
   const std::vector<ShapeParameter> all = analytic::add_defects(once, squat, Body::rail, 0.0)->parameters();
-  ASSERT_EQ(all.size(), 2u);
-  EXPECT_EQ(all[0].name, "shape_0");
-  EXPECT_NE(all[1].name, all[0].name);
+  ASSERT_EQ(all.size(), 4u) << "curvature and length of the arc before them";
+  EXPECT_EQ(all[2].name, "shape_0");
+  EXPECT_NE(all[3].name, all[2].name);
 }
 
 }  // namespace

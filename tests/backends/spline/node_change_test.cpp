@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "treadmark/backends/spline/make.hpp"
@@ -62,6 +63,31 @@ TEST(NodeChange, OfARailAndAWheelSeenAskew) {
   expect_slopes_of_heights(*rail, {Pose{}, {{0.0, 1e-3, 0.0}, rotation_x(0.3)}, {Vec3::Zero(), rotation_z(0.2)}});
   const auto wheel = make_profile_surface(testing::flanged_wheel(), testing::kRadius);
   expect_slopes_of_heights(*wheel, {Pose{}, {{0.0, 1e-3, 0.0}, rotation_x(0.2) * rotation_z(0.02)}});
+}
+
+/// Backwards it is the sum of what each point gives.
+TEST(NodeChange, PulledBackIsTheSumOfAllPoints) {
+  const auto rail = make_profile_surface(testing::rail_head(), 0.0);
+  const auto wheel = make_profile_surface(testing::flanged_wheel(), testing::kRadius);
+  const Grid2 grid{-4e-3, -12e-3, 2e-3, 2e-3, 5, 13};
+  for (const auto& [surface, plane] :
+       {std::pair{rail, Pose{{0.0, 1e-3, 0.0}, rotation_x(0.3)}}, {wheel, {{0.0, 1e-3, 0.0}, rotation_z(0.02)}}}) {
+    std::vector<Vec2> points;
+    std::vector<double> weights;
+    for (int iy = 0; iy < grid.ny; ++iy)
+      for (int ix = 0; ix < grid.nx; ++ix)
+        points.emplace_back(grid.x(ix), grid.y(iy)), weights.push_back(1.0 + 0.1 * ix - 0.2 * iy);
+    std::vector<double> by(surface->parameter_count(), 0.0), each(grid.size());
+    ASSERT_EQ(by.size(), surface->parameters().size());
+    EXPECT_EQ(surface->pull_back(plane, points, weights, by), HeightsBy::exact);
+    for (std::size_t k = 0; k < by.size(); ++k) {
+      surface->heights_by(k, {plane, grid}, each);
+      double sum = 0.0;
+      for (std::size_t i = 0; i < each.size(); ++i)
+        if (!std::isnan(each[i])) sum += weights[i] * each[i];
+      EXPECT_NEAR(by[k], sum, 1e-9) << k;
+    }
+  }
 }
 
 TEST(NodeChange, RefusesPointsThatAreNotThere) {
