@@ -18,6 +18,7 @@ namespace treadmark::detection {
 namespace {
 
 constexpr int kFineRows = 240;
+constexpr double kCurveReach = 8e-3;  ///< from a row's lowest point to where its curve is measured [m]
 /// Where only the least gap is wanted: a parabola between these is good to a nanometre, on steep flanges too.
 constexpr int kFewRows = 96;
 
@@ -230,7 +231,7 @@ ContactLocus::Outline ContactLocus::trace(const Rows& rows, const SampledProfile
 /// Of rows from one to another: the curve through its lowest point and one on either side, about as far as contact
 /// reaches.
 void ContactLocus::measure_curves(Fine& fine, int from, int to) const {
-  constexpr double kReach = 8e-3;  // [m]
+  constexpr double kReach = kCurveReach;
   Outline& line = fine.outline;
   const SampledProfile& s = fine.profile;
   const SampledWheel wheel(bodies_.X_TW, s.first, s.step, s.radius, s.slope);
@@ -270,7 +271,7 @@ ContactLocus::Fine& ContactLocus::fine_outline(int first_row, int last_row, int 
 }
 
 void ContactLocus::weigh_fine(Fine& looked_at, double wheel_dz, double near_miss_gap, PenetrationWeight weight,
-                              bool at_deepest, Found& found) const {
+                              bool at_deepest, Found& found, ReferenceSum* sum) const {
   const Outline& fine = looked_at.outline;
   const Rows& rows = fine.rows;
   const auto gap = [&](int i) { return fine.gap[static_cast<std::size_t>(i)] - wheel_dz; };
@@ -283,9 +284,11 @@ void ContactLocus::weigh_fine(Fine& looked_at, double wheel_dz, double near_miss
   const auto add = [](std::vector<ContactPatch>& list, ContactPatch patch) {
     // Margins of neighbouring fine rows overlap: a region seen twice counts once.
     for (const ContactPatch& other : list)
-      if (other.extent.box.y_min <= patch.extent.box.y_max && patch.extent.box.y_min <= other.extent.box.y_max) return;
+      if (other.extent.box.y_min <= patch.extent.box.y_max && patch.extent.box.y_min <= other.extent.box.y_max)
+        return false;
     patch.parts = {patch.extent};
     list.push_back(std::move(patch));
+    return true;
   };
   for (int i = 0; i < rows.count; ++i) {
     const double here = gap(i);
@@ -307,14 +310,14 @@ void ContactLocus::weigh_fine(Fine& looked_at, double wheel_dz, double near_miss
     ContactPatch p;
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     p.extent.box = {kInfinity, -kInfinity, 0.0, 0.0};
-    double sum = 0.0, sum_x = 0.0, sum_y = 0.0, sum_a = 0.0;
+    double total = 0.0, sum_x = 0.0, sum_y = 0.0, sum_a = 0.0;
     while (last + 1 < rows.count && gap(last + 1) < 0.0) ++last;
     measure_curves(looked_at, first, last);
     for (; i <= last; ++i) {
       const auto j = static_cast<std::size_t>(i);
       const double c = -gap(i), half = std::sqrt(c * std::max(0.0, 2.0 * fine.radius[j] - c)),
                    w = row_weight(weight, c, half);
-      sum += w;
+      total += w;
       const double shift = looked_at.cubic[j] * half * half * fine.radius[j];  // of both ends
       sum_x += w * (fine.x[j] + middle_share(weight) * shift);
       sum_y += w * rows.y(i);
@@ -334,19 +337,69 @@ void ContactLocus::weigh_fine(Fine& looked_at, double wheel_dz, double near_miss
     p.extent.z_at_y_max = rail_z(p.extent.box.y_max);
     const auto d = static_cast<std::size_t>(deepest);
     p.deepest_T = {fine.x[d], rows.y(deepest), fine.rail_z[d]};
-    p.x = at_deepest ? p.deepest_T.x() : sum_x / sum;
-    p.y = at_deepest ? p.deepest_T.y() : sum_y / sum;
-    p.inclination = sum_a / sum;
+    p.x = at_deepest ? p.deepest_T.x() : sum_x / total;
+    p.y = at_deepest ? p.deepest_T.y() : sum_y / total;
+    p.inclination = sum_a / total;
     p.extent.x = p.x, p.extent.y = p.y;
-    p.weight = sum * rows.step;
+    p.weight = total * rows.step;
     p.least_gap = gap(deepest);
-    add(found.patches, std::move(p));
+    const bool held = sum != nullptr && sum->holds(p.x, p.y);
+    if (add(found.patches, std::move(p)) && held) add_rows(looked_at, first, last, wheel_dz, weight, *sum);
     --i;
   }
 }
 
+/// As the rows are weighed: each has the depth c of its lowest point at x, the radius r of the wheel's curve there and
+/// its cubic part, both from heights at three places.
+void ContactLocus::add_rows(const Fine& looked_at, int first, int last, double wheel_dz, PenetrationWeight weight,
+                            ReferenceSum& sum) const {
+  const Outline& fine = looked_at.outline;
+  const double share = middle_share(weight), step = fine.rows.step;
+  const auto scaled = [](double factor, ReferenceSum::Three by) {
+    for (double& one : by) one *= factor;
+    return by;
+  };
+  for (int i = first; i <= last; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double c = wheel_dz - fine.gap[k], r = fine.radius[k], cubic = looked_at.cubic[k],
+                 square = c * std::max(0.0, 2.0 * r - c), half = std::sqrt(square), w = row_weight(weight, c, half);
+    if (!(half > 0.0)) continue;
+    const double half_by_c = (r - c) / half, half_by_r = c / half;
+    const bool squared = weight == PenetrationWeight::squared;
+    const double by_half = w / half, by_depth = squared ? 2.0 * w / c : w / c;  // of the weight
+    const double x = fine.x[k], y = fine.rows.y(i), slope = fine.rail_slope[k];
+    const ReferenceSum::Three values{x + share * cubic * square * r, y, std::atan(slope)};
+    sum.count(step * w, values);
+    const ReferenceSum::Three by_w = sum.by_weight(values);
+    const double by_x = w / sum.total();  // of the middle of the row, on the reference's x
+    ReferenceSum::Three by_c = scaled(by_depth + by_half * half_by_c, by_w), by_r = scaled(by_half * half_by_r, by_w);
+    by_c[0] += by_x * share * cubic * 2.0 * r * (r - c);
+    by_r[0] += by_x * share * cubic * (square + 2.0 * r * c);
+    by_c = scaled(step, by_c), by_r = scaled(step, by_r);
+
+    const Vec2 lowest(x, y);
+    sum.add_rail(lowest, scaled(-1.0, by_c));
+    sum.add_rail_slope(lowest, {0.0, 0.0, step * w / (sum.total() * (1.0 + slope * slope))});
+    sum.add_wheel(lowest, by_c);
+    // the lowest point moves to where the slope is 0, and with it the places where the curve is measured
+    const double a = kCurveReach, fall = r - std::sqrt(std::max(0.0, r * r - a * a));
+    const bool measured = looked_at.measured[k] != 0 && fall > 0.0;
+    sum.add_wheel_slope(lowest, {step * by_x * r * (measured ? 1.0 - share * square / (a * a) : 1.0), 0.0, 0.0});
+    if (!measured) continue;
+    const ReferenceSum::Three by_fall = scaled(0.5 * (1.0 - a * a / (fall * fall)), by_r);
+    const double by_rise =
+        step * by_x * share * square * r * 0.5 / (a * a * a);  // of the point behind over that before
+    sum.add_wheel(lowest, by_fall);
+    for (const double side : {-1.0, 1.0}) {
+      ReferenceSum::Three by = scaled(-0.5, by_fall);
+      by[0] += side * by_rise;
+      sum.add_wheel({x + side * a, y}, by);
+    }
+  }
+}
+
 ContactLocus::Found ContactLocus::at(double wheel_dz, double look_below, double near_miss_gap, PenetrationWeight weight,
-                                     bool reference_at_deepest) {
+                                     bool reference_at_deepest, ReferenceSum* sum) {
   const Rows& rows = outline_.rows;
   const auto gap = [&](int i) {
     return i >= 0 && i < rows.count ? outline_.gap[static_cast<std::size_t>(i)] - wheel_dz : kNaN;
@@ -388,7 +441,7 @@ ContactLocus::Found ContactLocus::at(double wheel_dz, double look_below, double 
     }
     Fine& fine = fine_outline(from, to, kFineRows);
     closest = std::fmin(closest, fine.outline.closest - wheel_dz);
-    weigh_fine(fine, wheel_dz, near_miss_gap, weight, reference_at_deepest, found);
+    weigh_fine(fine, wheel_dz, near_miss_gap, weight, reference_at_deepest, found, sum);
   }
   // As in the grid search: deepest first, two near misses at most.
   const auto deeper = [](const ContactPatch& a, const ContactPatch& b) { return a.least_gap < b.least_gap; };

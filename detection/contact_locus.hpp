@@ -7,6 +7,7 @@
 #include "treadmark/detection/contact_patch.hpp"
 #include "treadmark/detection/gap_field.hpp"
 #include "treadmark/detection/interpenetration.hpp"
+#include "treadmark/detection/reference_change.hpp"
 #include "treadmark/detection/sampled_profile.hpp"
 
 namespace treadmark::detection {
@@ -36,7 +37,7 @@ class ContactLocus {
   };
   /// With the wheel moved by wheel_dz along z of T. Positions with a gap below look_below are looked at closely.
   Found at(double wheel_dz, double look_below, double near_miss_gap, PenetrationWeight weight,
-           bool reference_at_deepest);
+           bool reference_at_deepest, ReferenceSum* sum = nullptr);
 
  private:
   /// Rows of y in T.
@@ -67,7 +68,9 @@ class ContactLocus {
   Fine& fine_outline(int first_row, int last_row, int count);
   void measure_curves(Fine& fine, int from, int to) const;
   void weigh_fine(Fine& looked_at, double wheel_dz, double near_miss_gap, PenetrationWeight weight, bool at_deepest,
-                  Found& found) const;
+                  Found& found, ReferenceSum* sum) const;
+  void add_rows(const Fine& fine, int first, int last, double wheel_dz, PenetrationWeight weight,
+                ReferenceSum& sum) const;
 
   BodyPair bodies_;
   double x_low_, x_high_;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "treadmark/core/grid.hpp"
@@ -26,6 +27,19 @@ struct ContactPatch {
   Vec3 deepest_T = Vec3::Zero();  ///< point of least gap, on the rail
   /// Sub-patches that are solved together but influence each other less with growing distance; one = the patch itself.
   std::vector<PatchExtent> parts;
+};
+
+/// How the contact reference of a patch follows from the heights of both bodies along z of T, the points of the search
+/// staying inside of each other or apart.
+struct ReferenceChange {
+  /// Where a height counts, and how.
+  struct Place {
+    Vec2 at_T;  ///< (x, y) [m]
+    std::array<double, 3> by =
+        {};  ///< of the reference's x, y [m/m] and of the inclination [rad/m], by the height there
+  };
+  std::vector<Place> rail;   ///< by heights of the rail [m]
+  std::vector<Place> wheel;  ///< by heights of the wheel [m]
 };
 
 /// How neighbouring interpenetration regions become contact patches.

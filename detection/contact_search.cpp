@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/to_whole.hpp"
@@ -105,9 +106,36 @@ double ContactSearch::least_gap() {
   return locus_ ? locus_->least() : gap_->least();
 }
 
+double ContactSearch::look_below() const {
+  return std::max({0.0, settings_.rules.near_miss, settings_.refine ? grazing_gap(settings_.grid_T) : 0.0});
+}
+
+std::optional<ReferenceChange> ContactSearch::reference_change(double wheel_dz, const ContactPatch& patch) {
+  constexpr double kRounding = 1e-9, kLocusOnGrid = 2e-4;  // [m], [rad]
+  const SearchSettings& s = settings_;
+  if (reference_locus_ || !s.refine || s.reference_at_deepest) return std::nullopt;
+  ReferenceSum sum(patch, s.weight);
+  if (!locus_) {
+    on_grid(wheel_dz, look_below(), &sum);
+    return std::move(sum).take(kRounding);
+  }
+  if (bodies_.rail->constant_profile() && bodies_.wheel->constant_profile()) {
+    locus_->at(wheel_dz, look_below(), s.rules.near_miss, s.weight, false, &sum);
+    return std::move(sum).take(kRounding);
+  }
+  // what may change beside the one line on which a locus looks counts where it is
+  const Rectangle& box = patch.extent.box;
+  const int n = s.refined_points;
+  const double dx = (box.x_max - box.x_min) / (n - 3), dy = (box.y_max - box.y_min) / (n - 3);
+  if (!(dx > 0.0 && dy > 0.0)) return std::nullopt;
+  const GapField field = gap_field(bodies_, {box.x_min - dx, box.y_min - dy, dx, dy, n, n});
+  for (const Region& region : find_regions(field, wheel_dz, s.weight, 0.0))
+    if (!region.near_miss() && sum.holds(region.x, region.y)) sum.add(field, wheel_dz, region);
+  return std::move(sum).take(kLocusOnGrid);
+}
+
 SearchResult ContactSearch::at(double wheel_dz) {
   const SearchSettings& s = settings_;
-  const double look_below = std::max({0.0, s.rules.near_miss, s.refine ? grazing_gap(s.grid_T) : 0.0});
   if (reference_locus_) {
     ContactLocus::Found found = reference_locus_->at(wheel_dz, s.rules.near_miss, s.weight, s.reference_at_deepest);
     if (!locus_check_ || !locus_check_->is_wrong(wheel_dz, found.patches, *gap_))
@@ -115,10 +143,10 @@ SearchResult ContactSearch::at(double wheel_dz) {
   }
   if (locus_ && std::isnan(locus_->least())) return {{}, locus_->least(), locus_->least()};
   if (locus_)
-    return found_on_locus(locus_->at(wheel_dz, look_below, s.rules.near_miss, s.weight, s.reference_at_deepest));
+    return found_on_locus(locus_->at(wheel_dz, look_below(), s.rules.near_miss, s.weight, s.reference_at_deepest));
   // Where the bodies touch, this finds the least gap as well.
-  gap_->reveal(look_below + wheel_dz);
-  return on_grid(wheel_dz, look_below);
+  gap_->reveal(look_below() + wheel_dz);
+  return on_grid(wheel_dz, look_below());
 }
 
 SearchResult ContactSearch::found_on_locus(ContactLocus::Found found) const {
@@ -126,7 +154,7 @@ SearchResult ContactSearch::found_on_locus(ContactLocus::Found found) const {
           found.closest};
 }
 
-SearchResult ContactSearch::on_grid(double wheel_dz, double look_below) {
+SearchResult ContactSearch::on_grid(double wheel_dz, double look_below, ReferenceSum* sum) {
   const SearchSettings& s = settings_;
   SearchResult result;
   result.least_gap = result.closest = gap_->least() - wheel_dz;
@@ -154,7 +182,9 @@ SearchResult ContactSearch::on_grid(double wheel_dz, double look_below) {
       const bool known = std::any_of(list.begin(), list.end(), [&](const ContactPatch& other) {
         return overlap(other.extent.box, patch.extent.box);
       });
-      if (!known) list.push_back(patch);
+      if (known) continue;
+      list.push_back(patch);
+      if (sum != nullptr && !part.near_miss() && sum->holds(part.x, part.y)) sum->add(fine, wheel_dz, part);
     }
   }
   result.patches = combine_patches(std::move(patches), near_misses, s.rules);

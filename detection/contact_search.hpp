@@ -10,6 +10,7 @@
 #include "treadmark/detection/contact_program/reference_locus.hpp"
 #include "treadmark/detection/detector.hpp"
 #include "treadmark/detection/pruned_gap.hpp"
+#include "treadmark/detection/reference_change.hpp"
 
 namespace treadmark::detection {
 
@@ -30,6 +31,7 @@ class ContactSearch final : public Detector {
 
   double least_gap() override;  ///< on the first grid
   SearchResult at(double wheel_dz) override;
+  std::optional<ReferenceChange> reference_change(double wheel_dz, const ContactPatch& patch) override;
   std::optional<WrongLocus> wrong_locus() const override { return locus_check_ ? locus_check_->wrong() : std::nullopt; }
 
   /// Points of the first grid whose heights were asked for so far.
@@ -37,7 +39,8 @@ class ContactSearch final : public Detector {
 
  private:
   SearchResult found_on_locus(ContactLocus::Found found) const;
-  SearchResult on_grid(double wheel_dz, double look_below);
+  double look_below() const;
+  SearchResult on_grid(double wheel_dz, double look_below, ReferenceSum* sum = nullptr);
   const GapField& refined(const Region& region);
   double closest_on_grid();
 

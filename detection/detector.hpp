@@ -68,6 +68,12 @@ class Detector {
   /// results do not depend on the questions before, but for rounding.
   virtual SearchResult at(double wheel_dz) = 0;
 
+  /// How the reference of a patch that at(wheel_dz) has found follows from the surfaces. Nothing: it is not known.
+  virtual std::optional<ReferenceChange> reference_change(double wheel_dz, const ContactPatch& patch) {
+    static_cast<void>(wheel_dz), static_cast<void>(patch);
+    return std::nullopt;
+  }
+
   /// What the last at() found wrong with a locus on rows.
   virtual std::optional<WrongLocus> wrong_locus() const { return std::nullopt; }
 };

@@ -183,6 +183,18 @@ class Pair {
   std::vector<PairNeighbours> neighbours(const Problem& problem, const PairSolution& solution,
                                          std::span<const PairParameter> parameters);
 
+  /// Puts numbers of a solution in as many places.
+  using Numbers = std::function<void(const PairSolution&, std::span<double>)>;
+  /// Total derivatives of numbers of a solution of this problem by the heights of its surfaces, and so by all that a
+  /// surface follows from (pulled_back()): what neighbours() tells of one parameter after the other, backwards and for
+  /// all of them at once. numbers: as many as count, of a solution as neighbours() gives them; called some dozens of
+  /// times for each patch. Costs up to nine linear systems for each patch, for all numbers together: of a pressure
+  /// under a load three, of a force two. The history stays as it is. Errors: as neighbours(), and Error(configuration)
+  /// for CONTACT's conventions. Numbers of reports: Status::failed where contact comes or goes with the height, for arc
+  /// lengths along a rail, and where it is not known how the search or the placement follow from heights.
+  std::vector<HeightGradient> height_gradients(const Problem& problem, const PairSolution& solution, std::size_t count,
+                                               const Numbers& numbers);
+
   /// Forgets the history: the bodies come together from rest.
   void reset();
 

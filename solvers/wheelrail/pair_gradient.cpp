@@ -81,6 +81,15 @@ PairGradient right_hand_gradient(const Problem& p, const PairSolution& s, const 
 
 }  // namespace
 
+ShapeGradient pulled_back(const Surface& surface, std::span<const HeightWeights> weights) {
+  ShapeGradient out;
+  out.by.assign(surface.parameter_count(), 0.0);
+  for (const HeightWeights& some : weights)
+    if (surface.pull_back(some.X_SP, some.points_P, some.weights, out.by) == HeightsBy::differences)
+      out.heights = HeightsBy::differences;
+  return out;
+}
+
 PairGradient Pair::gradient(const Problem& problem, const PairSolution& solution, const PairQuantity& quantity) {
   if (solution.status != Status::ok || solution.patches.empty())
     refuse_gradient("a solution that is not ok has no derivatives", "solve the problem first");

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "treadmark/core/report.hpp"
+#include "treadmark/core/surface.hpp"
 #include "treadmark/solvers/kalker/contact_gradient.hpp"
 
 namespace treadmark::wheelrail {
@@ -35,5 +37,34 @@ struct PairGradient {
   double by_load = 0.0;  ///< by the vertical force [unit/N] where it is given, else by the height z [unit/m]
   Report report;         ///< iterations of two products each; derivatives of another status than ok are none
 };
+
+/// Weights of heights along the normal of a plane, over points of it.
+struct HeightWeights {
+  Pose X_SP;                    ///< of the plane in the axes of the surface
+  std::vector<Vec2> points_P;   ///< [m]
+  std::vector<double> weights;  ///< [unit/m], as many
+};
+
+/// Total derivatives of a number by the heights of both surfaces, wherever it depends on them: over the elements, where
+/// the search found the contact plane, and where the gauge, the top or the tape circle place a body. At places where
+/// something comes or goes (elements in contact, adhesion or the interpenetration, the place of the largest pressure,
+/// a rail's top or side that is not one place) they are one-sided, those of what is there.
+struct HeightGradient {
+  std::vector<HeightWeights> rail;  ///< by heights of the rail; of a left-hand pair as of the right-hand one it mirrors
+  std::vector<HeightWeights> wheel;  ///< likewise
+  /// Of each patch, what of it lies over its grid, gathered at the elements: by heights of the rail along n [unit/m].
+  std::vector<std::vector<double>> rail_field;
+  /// By heights of the wheel along n, which points into the rail [unit/m].
+  std::vector<std::vector<double>> wheel_field;
+  Report report;  ///< iterations of two products each; derivatives of another status than ok are none
+};
+
+/// Derivatives by all parameters of a surface.
+struct ShapeGradient {
+  std::vector<double> by;                ///< [unit per unit of Surface::parameters()]
+  HeightsBy heights = HeightsBy::exact;  ///< how heights were found to follow from them
+};
+/// Of weights of its heights. Errors: as Surface::pull_back().
+ShapeGradient pulled_back(const Surface& surface, std::span<const HeightWeights> weights);
 
 }  // namespace treadmark::wheelrail

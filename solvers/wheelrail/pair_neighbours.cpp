@@ -4,14 +4,17 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/wheelrail/mirror.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 #include "treadmark/solvers/wheelrail/pair_step.hpp"
+#include "treadmark/solvers/wheelrail/placement_change.hpp"
 #include "treadmark/solvers/wheelrail/rail_memory.hpp"
 
 namespace treadmark::wheelrail {
@@ -58,6 +61,19 @@ constexpr std::size_t place_of(Quantity quantity) {
 using PatchNumbers = std::array<double, kNumbers.size()>;
 double number_of(const PatchNumbers& numbers, Quantity quantity) { return numbers[place_of(quantity)]; }
 
+/// How a number of a solution changes with what PatchState and PatchNumbers say of a patch.
+struct PatchWeights {
+  PatchNumbers numbers{};
+  Vec3 origin = Vec3::Zero();
+  double angle = 0.0, reference_s = 0.0;
+  double xi = 0.0, eta = 0.0, phi = 0.0, velocity = 0.0;
+  double approach = 0.0;
+};
+struct NumberWeights {
+  std::vector<PatchWeights> patches;
+  double z = 0.0;
+};
+
 /// A problem of the right-hand side with its surfaces.
 struct Given {
   Problem problem;
@@ -66,29 +82,35 @@ struct Given {
 
 class Tangents {
  public:
-  Tangents(Given given, const detection::BodyPair& bodies, const PairSolution& solution,
-           std::vector<kalker::ContactSolver>& solvers)
+  Tangents(Given given, const detection::BodyPair& bodies, const PairSolution& solution)
       : given_(std::move(given)), bodies_(bodies), solution_(solution) {
     given_.problem.state.velocity.pitch = solution.pitch_rate;
-    while (solvers.size() < solution.patches.size()) solvers.emplace_back();
-    for (std::size_t k = 0; k < solution.patches.size(); ++k) {
-      const PatchSolution& patch = solution.patches[k];
+    for (const PatchSolution& patch : solution.patches)
       deepest_.push_back(static_cast<std::size_t>(
           std::min_element(patch.distance.begin(), patch.distance.end(),
                            [](double a, double b) { return a < b || (std::isnan(b) && !std::isnan(a)); }) -
           patch.distance.begin()));
+  }
+
+  /// The linear systems of those numbers of patches that are wanted, and of the balance. To be called first.
+  void solve(std::vector<kalker::ContactSolver>& solvers, std::array<bool, kNumbers.size()> wanted) {
+    if (balanced()) wanted[place_of(Quantity::force_n)] = wanted[place_of(Quantity::force_y)] = true;
+    while (solvers.size() < solution_.patches.size()) solvers.emplace_back();
+    for (std::size_t k = 0; k < solution_.patches.size(); ++k) {
+      const PatchSolution& patch = solution_.patches[k];
       kalker::ContactProblem problem = contact_problem_of(given_.problem, patch);
       problem.sub_patches.count = static_cast<int>(patch.region.parts.size());
-      auto& gradients = gradients_.emplace_back();
-      for (const Quantity number : kNumbers) {
-        gradients.push_back(solvers[k].gradient(problem, patch.contact, number));
-        note(gradients.back().report);
+      auto& gradients = gradients_.emplace_back(kNumbers.size());
+      for (std::size_t q = 0; q < kNumbers.size(); ++q) {
+        if (!wanted[q]) continue;
+        gradients[q] = solvers[k].gradient(problem, patch.contact, kNumbers[q]);
+        note(gradients[q].report);
       }
     }
     if (!balanced()) return;
     constexpr double kStep = 5e-8;  // [m], of penetrations of some hundredths of a millimetre
-    std::optional<PairState> lower = state(given_, bodies_, solution.z + kStep),
-                             higher = state(given_, bodies_, solution.z - kStep);
+    std::optional<PairState> lower = state(given_, bodies_, solution_.z + kStep),
+                             higher = state(given_, bodies_, solution_.z - kStep);
     if (!lower || !higher) {
       fail();
       return;
@@ -100,6 +122,10 @@ class Tangents {
   }
 
   bool balanced() const { return given_.problem.vertical_force.has_value(); }
+
+  /// Of each number.
+  std::vector<HeightGradient> by_heights(std::size_t count, const Pair::Numbers& numbers,
+                                         std::vector<kalker::ContactSolver>& solvers);
 
   /// more and less: what is given with the parameter changed by the step.
   PairNeighbours beside(const PairParameter& parameter, const Given& more, const Given& less, double step) const {
@@ -133,7 +159,9 @@ class Tangents {
 
  private:
   void note(const Report& found) {
+    const int iterations = report_.iterations + found.iterations;
     if (report_.status == Status::ok) report_ = found;
+    report_.iterations = iterations;
   }
   void fail() {
     report_.status = Status::failed;
@@ -254,6 +282,22 @@ class Tangents {
     return sum;
   }
 
+  /// Where everything lies, and how patches change as their contact planes move.
+  struct Laid {
+    Placement placement;
+    std::vector<LaidPatch> patches;
+    std::vector<detection::ReferenceChange> references;
+    std::vector<std::array<PatchState, 4>> by_plane;  ///< by x, y, z of its origin, and by its angle
+    std::vector<PatchState> by_approach;
+    std::string message;  ///< why it is not known; empty: it is
+  };
+  Laid laid() const;
+  std::vector<NumberWeights> weights_of(std::size_t count, const Pair::Numbers& numbers) const;
+  double applied(const PatchWeights& weights, std::size_t k, const PatchState& change) const;
+  NumberWeights with_balance(NumberWeights weights) const;
+  void add_patch(std::size_t k, const PatchWeights& weights, const Laid& laid, HeightGradient& out) const;
+  void add_placement(std::size_t count, const Pair::Numbers& numbers, std::vector<HeightGradient>& out) const;
+
   PairSolution neighbour(const Given& given, const PairState& change, double amount, double z) const {
     PairSolution out;
     Problem p = given.problem;
@@ -313,6 +357,308 @@ class Tangents {
   Report report_;
 };
 
+Tangents::Laid Tangents::laid() const {
+  constexpr double kStep = 1e-6;  // [m], [rad]
+  Laid out;
+  const Problem& p = given_.problem;
+  RailMemory memory(*given_.geometry.rail);
+  std::vector<kalker::ContactSolver> none;
+  PhaseTimes times;
+  const Instant before;
+  PairStep step(given_.geometry, p, before, none, none, times, bodies_, memory);
+  if (step.place(0.0)) out.patches = step.lay(solution_.z, solution_.patches);
+  if (out.patches.size() < solution_.patches.size()) {
+    out.message = "contact comes or goes here: there are no derivatives";
+    return out;
+  }
+  out.placement = step.placement();
+  detection::BodyPair bodies = bodies_;
+  bodies.X_TR = out.placement.X_TS, bodies.X_TW = out.placement.X_TA;
+  for (std::size_t k = 0; k < out.patches.size(); ++k) {
+    std::optional<detection::ReferenceChange> reference = step.reference_change(solution_.z, out.patches[k].region);
+    if (!reference) {
+      out.message =
+          "where contact lies does not follow from heights in a way that is known: of this detector, of the deepest "
+          "point, or of patches near each other whose planes turn towards each other";
+      return out;
+    }
+    out.references.push_back(std::move(*reference));
+    const detection::ContactFrame& frame = out.patches[k].frame;
+    const auto state_at = [&](const Vec3& origin, double angle, double deeper) {
+      PatchState s;
+      s.origin = origin, s.angle = angle;
+      const Pose X_TC{origin, rotation_x(angle)};
+      const Vec2& reference_C = solution_.patches[k].reference_C;
+      const Pose X_CP{{-reference_C.x(), -reference_C.y(), 0.0}, Mat3::Identity()};
+      detection::UndeformedDistance u = detection::undeformed_distance(bodies, X_TC * X_CP, solution_.patches[k].grid);
+      for (double& h : u.distance) h -= u.approach;
+      s.gap = std::move(u.distance);
+      const ContactKinematics motion = contact_kinematics(p, out.placement, X_TC, deeper - s.gap[deepest_[k]]);
+      s.xi = motion.xi, s.eta = motion.eta, s.phi = motion.phi, s.velocity = motion.velocity;
+      s.friction = friction_at(p.friction_inclination, p.friction_laws, angle, p.friction).static_friction();
+      return s;
+    };
+    const auto rate = [&](const Vec3& way, double turn, double deeper) {
+      const auto beside = [&](double by) {
+        return state_at(frame.X_TC.origin + by * way, frame.angle + by * turn, by * deeper);
+      };
+      PatchState change;
+      change.add(0.5 / kStep, beside(kStep)).add(-0.5 / kStep, beside(-kStep));
+      return change;
+    };
+    auto& by_plane = out.by_plane.emplace_back();
+    for (int m = 0; m < 3; ++m) by_plane[static_cast<std::size_t>(m)] = rate(Vec3::Unit(m), 0.0, 0.0);
+    by_plane[3] = rate(Vec3::Zero(), 1.0, 0.0);
+    out.by_approach.push_back(rate(Vec3::Zero(), 0.0, 1.0));
+  }
+  return out;
+}
+
+/// By solutions beside this one, which differ in one of all that forces and places are made of.
+std::vector<NumberWeights> Tangents::weights_of(std::size_t count, const Pair::Numbers& numbers) const {
+  constexpr double kPart = 1e-4, kLength = 1e-6, kLever = 1e-3;  // of numbers; [m] or [rad], [m]
+  std::vector<NumberWeights> out(count);
+  for (NumberWeights& one : out) one.patches.resize(solution_.patches.size());
+  Problem p = given_.problem;
+  p.state.position.z = solution_.z;
+  const Placement placement = place(given_.geometry, p);
+  // patch k changed by an amount, the wheelset lower by dz
+  const auto solution_with = [&](std::size_t k, const PatchState& change, const PatchNumbers& by, double approach,
+                                 double amount, double dz) {
+    PairSolution s;
+    s.z = solution_.z + dz, s.pitch_rate = solution_.pitch_rate, s.placement = placement;
+    for (Pose* pose : {&s.placement.X_TWs, &s.placement.X_TW, &s.placement.X_TA}) pose->origin.z() += dz;
+    for (std::size_t j = 0; j < solution_.patches.size(); ++j)
+      s.patches.push_back(neighbour(solution_.patches[j], change, by, j == k ? amount : 0.0, approach));
+    resolve_loads(s);
+    return s;
+  };
+  std::vector<double> more(count), less(count);
+  const auto rates = [&](const auto& solution_at, double step, const auto& put) {
+    numbers(solution_at(step), more), numbers(solution_at(-step), less);
+    for (std::size_t n = 0; n < count; ++n) put(out[n], (more[n] - less[n]) / (2.0 * step));
+  };
+  for (std::size_t k = 0; k < solution_.patches.size(); ++k) {
+    const PatchSolution& patch = solution_.patches[k];
+    const kalker::ContactSolution& c = patch.contact;
+    const double force = std::max(1.0, std::abs(c.force_n)), speed = patch.kinematics.velocity;
+    const PatchNumbers sizes{force,
+                             std::max(1.0, c.max_pressure),
+                             kLever,
+                             kLever,
+                             std::max(1e-6, c.elastic_energy),
+                             force,
+                             force,
+                             kLever * force,
+                             std::max(kLever * force * std::max(speed, kLever), std::abs(c.frictional_power))};
+    for (std::size_t q = 0; q < kNumbers.size(); ++q) {
+      PatchNumbers by{};
+      by[q] = 1.0;
+      rates([&](double amount) { return solution_with(k, {}, by, 0.0, amount, 0.0); }, kPart * sizes[q],
+            [&](NumberWeights& to, double rate) { to.patches[k].numbers[q] = rate; });
+    }
+    const auto of_state = [&](double step, const auto& set, const auto& put) {
+      PatchState change;
+      set(change);
+      rates([&](double amount) { return solution_with(k, change, {}, 0.0, amount, 0.0); }, step,
+            [&](NumberWeights& to, double rate) { put(to.patches[k]) = rate; });
+    };
+    for (int m = 0; m < 3; ++m)
+      of_state(
+          kLength, [&](PatchState& s) { s.origin[m] = 1.0; }, [&](PatchWeights& w) -> double& { return w.origin[m]; });
+    struct Row {
+      double PatchState::*from;
+      double PatchWeights::*to;
+      double step;
+    };
+    const Row rows[] = {{&PatchState::angle, &PatchWeights::angle, kLength},
+                        {&PatchState::reference_s, &PatchWeights::reference_s, kLength},
+                        {&PatchState::xi, &PatchWeights::xi, kLength},
+                        {&PatchState::eta, &PatchWeights::eta, kLength},
+                        {&PatchState::phi, &PatchWeights::phi, kPart},
+                        {&PatchState::velocity, &PatchWeights::velocity, kPart * std::max(speed, kLever)}};
+    for (const Row& row : rows)
+      of_state(
+          row.step, [&](PatchState& s) { s.*row.from = 1.0; }, [&](PatchWeights& w) -> double& { return w.*row.to; });
+    rates([&](double amount) { return solution_with(k, {}, {}, 1.0, amount, 0.0); }, kLength,
+          [&](NumberWeights& to, double rate) { to.patches[k].approach = rate; });
+  }
+  rates([&](double amount) { return solution_with(0, {}, {}, 0.0, 0.0, amount); }, kLength,
+        [&](NumberWeights& to, double rate) { to.z = rate; });
+  return out;
+}
+
+double Tangents::applied(const PatchWeights& w, std::size_t k, const PatchState& change) const {
+  const PatchNumbers by = numbers(k, change);
+  double sum = -w.approach * change.gap[deepest_[k]] + w.origin.dot(change.origin) + w.angle * change.angle +
+               w.xi * change.xi + w.eta * change.eta + w.phi * change.phi + w.velocity * change.velocity;
+  for (std::size_t q = 0; q < by.size(); ++q) sum += w.numbers[q] * by[q];
+  return sum;
+}
+
+/// The wheel comes down by what the patches carry too little.
+NumberWeights Tangents::with_balance(NumberWeights weights) const {
+  if (!balanced()) return weights;
+  double by_height = weights.z;
+  for (std::size_t k = 0; k < weights.patches.size(); ++k) by_height += applied(weights.patches[k], k, by_height_[k]);
+  const double by_force = by_height / stiffness_;
+  for (std::size_t k = 0; k < weights.patches.size(); ++k) {  // as vertical() has it
+    const kalker::ContactSolution& c = solution_.patches[k].contact;
+    const double angle = solution_.patches[k].frame.angle, sine = std::sin(angle), cosine = std::cos(angle);
+    PatchWeights& w = weights.patches[k];
+    w.numbers[place_of(Quantity::force_y)] -= by_force * sine;
+    w.numbers[place_of(Quantity::force_n)] -= by_force * cosine;
+    w.angle -= by_force * (cosine * c.force_y - sine * c.force_n);
+  }
+  return weights;
+}
+
+void Tangents::add_patch(std::size_t k, const PatchWeights& w, const Laid& laid, HeightGradient& out) const {
+  const PatchSolution& patch = solution_.patches[k];
+  const Grid2& grid = patch.grid;
+  std::vector<double> by_gap(grid.size(), 0.0);
+  double by_approach = w.approach, by_velocity = w.velocity;
+  std::array<double, 3> by_creepage{w.xi, w.eta, w.phi};
+  for (std::size_t q = 0; q < kNumbers.size(); ++q) {
+    const kalker::Gradient& by = gradients_[k][q];
+    const double weight = w.numbers[q];
+    if (weight == 0.0 || by.by_gap.empty()) continue;
+    double sum = by.by_load;
+    for (std::size_t i = 0; i < by_gap.size(); ++i) by_gap[i] += weight * by.by_gap[i], sum += by.by_gap[i];
+    by_approach += weight * sum;
+    for (std::size_t m = 0; m < by_creepage.size(); ++m) by_creepage[m] += weight * by.by_creepage[m];
+  }
+  if (patch.kinematics.velocity > 0.0)
+    by_velocity +=
+        w.numbers[place_of(Quantity::frictional_power)] * patch.contact.frictional_power / patch.kinematics.velocity;
+  const PatchState& deeper = laid.by_approach[k];
+  by_approach += by_creepage[0] * deeper.xi + by_creepage[1] * deeper.eta + by_creepage[2] * deeper.phi +
+                 by_velocity * deeper.velocity;
+  by_gap[deepest_[k]] -= by_approach;  // which is how deep the deepest element lies
+
+  std::array<double, 4> by_plane{};
+  for (std::size_t m = 0; m < by_plane.size(); ++m) by_plane[m] = applied(w, k, laid.by_plane[k][m]);
+
+  const Pose X_RT = laid.placement.X_TS.inverse(), X_WT = laid.placement.X_TA.inverse();
+  const Pose& X_TC = laid.patches[k].frame.X_TC;
+  const Pose X_TP = X_TC * Pose{{-patch.reference_C.x(), -patch.reference_C.y(), 0.0}, Mat3::Identity()};
+  HeightWeights over_rail{X_RT * X_TP, {}, {}}, over_wheel{X_WT * X_TP, {}, {}};
+  for (int iy = 0; iy < grid.ny; ++iy)
+    for (int ix = 0; ix < grid.nx; ++ix) {
+      const double by = by_gap[grid.index(ix, iy)];
+      if (by == 0.0) continue;
+      for (HeightWeights* to : {&over_rail, &over_wheel}) to->points_P.emplace_back(grid.x(ix), grid.y(iy));
+      over_rail.weights.push_back(by), over_wheel.weights.push_back(-by);
+    }
+  out.rail_field.push_back(by_gap);
+  for (double& by : by_gap) by = -by;
+  out.wheel_field.push_back(std::move(by_gap));
+
+  // the reference is where the search has it, and on the rail there
+  const Vec2 reference = X_TC.origin.head<2>();
+  double slope_x = 0.0, slope_y = 0.0;
+  given_.geometry.rail->heights_at(X_RT, {&reference, 1}, {{}, {&slope_x, 1}, {&slope_y, 1}});
+  const std::array<double, 3> by_reference{by_plane[0] + by_plane[2] * slope_x, by_plane[1] + by_plane[2] * slope_y,
+                                           by_plane[3]};
+  const auto searched = [&](const Pose& X_ST, const std::vector<detection::ReferenceChange::Place>& places) {
+    HeightWeights some{X_ST, {}, {}};
+    for (const detection::ReferenceChange::Place& place : places) {
+      some.points_P.push_back(place.at_T);
+      some.weights.push_back(by_reference[0] * place.by[0] + by_reference[1] * place.by[1] +
+                             by_reference[2] * place.by[2]);
+    }
+    return some;
+  };
+  HeightWeights search_rail = searched(X_RT, laid.references[k].rail),
+                search_wheel = searched(X_WT, laid.references[k].wheel);
+  search_rail.points_P.push_back(reference), search_rail.weights.push_back(by_plane[2]);
+
+  // each shared among the four elements round it
+  const auto gather = [&](const HeightWeights& from, std::vector<double>& field) {
+    const Vec3 n = X_TC.rotation.col(2);
+    for (std::size_t i = 0; i < from.weights.size(); ++i) {
+      const Vec2 aside = from.points_P[i] - reference;
+      const double up = X_TC.origin.z() - (n.x() * aside.x() + n.y() * aside.y()) / n.z();
+      const Vec3 at = X_TP.apply_inverse({from.points_P[i].x(), from.points_P[i].y(), up});
+      const double x = (at.x() - grid.x0) / grid.dx, y = (at.y() - grid.y0) / grid.dy;
+      if (!(x >= 0.0 && y >= 0.0 && x < grid.nx - 1 && y < grid.ny - 1)) continue;
+      const int ix = to_whole<int>(x), iy = to_whole<int>(y);
+      const double f = x - ix, g = y - iy, weight = from.weights[i] / n.z();
+      field[grid.index(ix, iy)] += weight * (1.0 - f) * (1.0 - g);
+      field[grid.index(ix + 1, iy)] += weight * f * (1.0 - g);
+      field[grid.index(ix, iy + 1)] += weight * (1.0 - f) * g;
+      field[grid.index(ix + 1, iy + 1)] += weight * f * g;
+    }
+  };
+  gather(search_rail, out.rail_field.back()), gather(search_wheel, out.wheel_field.back());
+  out.rail.push_back(std::move(over_rail)), out.rail.push_back(std::move(search_rail));
+  out.wheel.push_back(std::move(over_wheel)), out.wheel.push_back(std::move(search_wheel));
+}
+
+/// A body that is placed by its shape moves with it as a whole.
+void Tangents::add_placement(std::size_t count, const Pair::Numbers& numbers, std::vector<HeightGradient>& out) const {
+  constexpr double kStep = 5e-8;  // [m]
+  const PlacementChange change = placement_change(given_.geometry, given_.problem);
+  std::vector<double> more(count), less(count);
+  const auto add = [&](const std::vector<HeightWeights>& from, double& (*place_in)(Problem&),
+                       std::vector<HeightWeights> HeightGradient::*to) {
+    if (from.empty()) return;
+    Given above = given_, below = given_;
+    place_in(above.problem) += kStep, place_in(below.problem) -= kStep;
+    const PairNeighbours found = beside({}, above, below, kStep);
+    if (found.report.status == Status::ok) numbers(found.more, more), numbers(found.less, less);
+    for (std::size_t n = 0; n < count; ++n) {
+      if (found.report.status != Status::ok) {
+        out[n].report = found.report;
+        continue;
+      }
+      for (HeightWeights some : from) {
+        for (double& weight : some.weights) weight *= (more[n] - less[n]) / (2.0 * kStep);
+        (out[n].*to).push_back(std::move(some));
+      }
+    }
+  };
+  add(
+      change.rail_y, [](Problem& p) -> double& { return p.track.dy; }, &HeightGradient::rail);
+  add(
+      change.rail_z, [](Problem& p) -> double& { return p.track.dz; }, &HeightGradient::rail);
+  add(
+      change.wheel_z, [](Problem& p) -> double& { return p.state.wheel_offset.z; }, &HeightGradient::wheel);
+  if (change.message.empty()) return;
+  for (HeightGradient& one : out) one.report.status = Status::failed, one.report.message = change.message;
+}
+
+std::vector<HeightGradient> Tangents::by_heights(std::size_t count, const Pair::Numbers& numbers,
+                                                 std::vector<kalker::ContactSolver>& solvers) {
+  const std::vector<NumberWeights> weights = weights_of(count, numbers);
+  std::array<bool, kNumbers.size()> wanted{};
+  for (const NumberWeights& number : weights)
+    for (const PatchWeights& patch : number.patches)
+      for (std::size_t q = 0; q < wanted.size(); ++q) wanted[q] = wanted[q] || patch.numbers[q] != 0.0;
+  solve(solvers, wanted);
+  std::vector<HeightGradient> out(count);
+  const Laid base = laid();
+  if (report_.status == Status::ok && !base.message.empty()) {
+    report_.status = Status::failed;
+    report_.message = base.message;
+  }
+  for (std::size_t n = 0; n < count; ++n) {
+    HeightGradient& one = out[n];
+    one.report = report_;
+    if (report_.status != Status::ok) continue;
+    const NumberWeights held = with_balance(weights[n]);
+    const auto known = [](const PatchWeights& w) { return w.reference_s == 0.0; };
+    if (!std::all_of(held.patches.begin(), held.patches.end(), known)) {
+      one.report.status = Status::failed;
+      one.report.message = "arc lengths along the rail have no derivatives by all that its shape follows from";
+      continue;
+    }
+    for (std::size_t k = 0; k < held.patches.size(); ++k) add_patch(k, held.patches[k], base, one);
+  }
+  if (report_.status == Status::ok) add_placement(count, numbers, out);
+  return out;
+}
+
 /// Whether a problem differs in nothing but what derivatives follow. Of laws of friction that is the coefficient.
 bool is_followed(const Problem& p, Problem changed) {
   if (changed.vertical_force.has_value() != p.vertical_force.has_value() ||
@@ -328,8 +674,9 @@ bool is_followed(const Problem& p, Problem changed) {
 
 }  // namespace
 
-std::vector<PairNeighbours> Pair::neighbours(const Problem& problem, const PairSolution& solution,
-                                             std::span<const PairParameter> parameters) {
+namespace {
+
+void require_followed(const Problem& problem, const PairSolution& solution) {
   if (solution.status != Status::ok || solution.patches.empty())
     refuse_neighbours("a solution that is not ok has no derivatives", "solve the problem first");
   const bool surface_loads =
@@ -344,12 +691,40 @@ std::vector<PairNeighbours> Pair::neighbours(const Problem& problem, const PairS
   if (problem.regime != kalker::Regime::steady && problem.regime != kalker::Regime::frictionless)
     refuse_neighbours("contacts that go on from the instant before have no derivatives by what is given",
                       "take steady rolling");
+}
+
+}  // namespace
+
+std::vector<HeightGradient> Pair::height_gradients(const Problem& problem, const PairSolution& solution,
+                                                   std::size_t count, const Numbers& numbers) {
+  require_followed(problem, solution);
+  if (bodies_.distance_mesh || problem.solver.conventions == Conventions::contact)
+    refuse_neighbours("distances by CONTACT's conventions have no derivatives by all heights",
+                      "take Treadmark's conventions");
+  const bool left = problem.side == Side::left;
+  const PairSolution right_hand = left ? mirrored(solution) : PairSolution{};
+  Tangents tangents({left ? mirrored(problem) : problem, geometry_}, bodies_, left ? right_hand : solution);
+  const Numbers of_the_left = [&](const PairSolution& s, std::span<double> values) { numbers(mirrored(s), values); };
+  std::vector<HeightGradient> out = tangents.by_heights(count, left ? of_the_left : numbers, solvers_);
+  for (HeightGradient& one : out)
+    for (auto* fields : {&one.rail_field, &one.wheel_field})
+      for (std::size_t k = 0; left && k < fields->size(); ++k) reverse_rows((*fields)[k], solution.patches[k].grid);
+  return out;
+}
+
+std::vector<PairNeighbours> Pair::neighbours(const Problem& problem, const PairSolution& solution,
+                                             std::span<const PairParameter> parameters) {
+  require_followed(problem, solution);
   const bool left = problem.side == Side::left;
   const PairSolution right_hand = left ? mirrored(solution) : PairSolution{};
   const auto given = [&](Problem p, Geometry g) {
     return Given{left ? mirrored(std::move(p)) : std::move(p), std::move(g)};
   };
-  const Tangents tangents(given(problem, geometry_), bodies_, left ? right_hand : solution, solvers_);
+  Tangents solved(given(problem, geometry_), bodies_, left ? right_hand : solution);
+  std::array<bool, kNumbers.size()> all;
+  all.fill(true);
+  solved.solve(solvers_, all);
+  const Tangents& tangents = solved;
 
   std::vector<PairNeighbours> out(parameters.size());
   parallel_for(parameters.size(), [&](std::size_t i) {

@@ -23,6 +23,7 @@ class RailMemory;
 
 /// How a patch lies: its contact plane, and the gap of the bodies over elements that are given.
 struct LaidPatch {
+  detection::ContactPatch region;
   detection::ContactFrame frame;
   std::vector<double> gap;   ///< rail over wheel along n [m], negative: penetration; NaN where a surface is missing
   double reference_s = 0.0;  ///< PatchSolution::reference_s [m]
@@ -63,6 +64,10 @@ class PairStep {
   /// How these patches lie with the wheelset at height z, on planes of their own there and on the elements that they
   /// have, without pressures. Fewer than these where contact is found at fewer places. Not for curved references.
   std::vector<LaidPatch> lay(double z, std::span<const PatchSolution> patches);
+  /// How the reference of a patch that lay(z) has found follows from the surfaces; nothing: not known.
+  std::optional<detection::ReferenceChange> reference_change(double z, const detection::ContactPatch& region) {
+    return search_->reference_change(z - start_z_, region);
+  }
   /// Whether the last evaluate() found pressures under its load; then all but the elements' place is that of z().
   bool carries_load() const { return carries_load_; }
   double z() const { return z_; }

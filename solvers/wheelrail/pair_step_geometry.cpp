@@ -129,7 +129,8 @@ std::vector<LaidPatch> PairStep::lay(double z, std::span<const PatchSolution> pa
     if (here == found.patches.size()) return out;
     taken[here] = 1;
     LaidPatch& laid = out.emplace_back();
-    laid.frame = detection::contact_frame(bodies, found.patches[here]);
+    laid.region = found.patches[here];
+    laid.frame = detection::contact_frame(bodies, laid.region);
     laid.reference_s = profile_arc_length(*geometry_.rail, placement_.X_TS, laid.frame.X_TC.origin);
     const Pose X_CP{{-patch.reference_C.x(), -patch.reference_C.y(), 0.0}, Mat3::Identity()};
     detection::UndeformedDistance undeformed =

@@ -147,6 +147,7 @@ GaugePoint gauge_point(const Surface& rail, double cant, const Track& track, dou
   const auto high_enough = [&](double z) { return z - head->z_top <= track.gauge_height; };
   GaugePoint point;
   point.z_top = head->z_top;
+  point.near_top = section.y[head->top];
   point.y = section.y[head->first];
   if (head->first > 0) point.y = boundary(rail, X_RT, x, point.y, section.y[head->first - 1], high_enough);
   // an end that is as steep as the side of a head is one, seen from above

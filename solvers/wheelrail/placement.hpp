@@ -26,6 +26,7 @@ Placement place(const Geometry& geometry, const Problem& right_hand_problem, Rai
 struct GaugePoint {
   double y = 0.0, z_top = 0.0;  ///< [m]
   bool seen = true;             ///< false: the section ends before it reaches so deep, y is that of its end
+  double near_top = 0.0;        ///< lateral position of the top, to the nearest point of a section [m]
 };
 /// Of the section at x [m], in the rail frame turned to the track's orientation. Errors: as place.
 GaugePoint gauge_point(const Surface& rail, double cant, const Track& track, double x = 0.0);
