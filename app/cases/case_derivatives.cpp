@@ -99,7 +99,9 @@ class CaseTangents {
         added_(added),
         base_(std::make_shared<const Prepared>(prepared(c))) {}
 
-  io::CaseDerivatives by(const std::vector<std::string>& keys, std::span<const SectionHeights> heights = {}) {
+  /// shown: a result of the case whose patches get the derivatives of their pressures by heights; null: none.
+  io::CaseDerivatives by(const std::vector<std::string>& keys, std::span<const SectionHeights> heights = {},
+                         io::CaseResult* shown = nullptr) {
     io::CaseDerivatives out;
     wheelrail::Pair pair(base_->geometry);
     const wheelrail::PairSolution solution = pair.solve(base_->problem);
@@ -119,6 +121,7 @@ class CaseTangents {
     const std::vector<wheelrail::PairNeighbours> found = pair.neighbours(base_->problem, solution, parameters);
     name_numbers(to_result(base_->input, solution), out);
     for (std::size_t i = 0; i < asked_.size(); ++i) fill(asked_[i], found[i], out);
+    if (shown != nullptr && shown->patches.size() == solution.patches.size()) add_fields(pair, solution, *shown);
     return out;
   }
 
@@ -192,10 +195,23 @@ class CaseTangents {
   void add_shape(const ShapeKey& shape, io::CaseDerivatives& out) {
     const std::string body(shape.key.substr(0, shape.key.find('.')));
     const Surface& surface = shape.facing == Facing::up ? *base_->geometry.rail : *base_->geometry.wheel;
+    constexpr std::size_t kMost = 500;  // columns
+    const std::size_t count = surface.parameter_count();
+    if (count > kMost) {
+      out.parameters.push_back({std::string(shape.key), kNaN, false,
+                                fmt::format("its {} parameters are too many for a table: Pair.shape_gradient in Python "
+                                            "and tm_pair_gradient_by_shape in C have them all",
+                                            count)});
+      return;
+    }
     const std::vector<ShapeParameter> all = surface.parameters();
     for (std::size_t k = 0; k < all.size(); ++k) {
       const bool length = all[k].unit == "m";
-      const std::string ending = length ? "_mm" : all[k].unit == "1" ? "" : "_" + all[k].unit;
+      const std::size_t over = all[k].unit.find('/');  // as keys have it: _per_m, _m_per_rad
+      const std::string above = all[k].unit.substr(0, over);
+      const std::string ending = length ? "_mm"
+                                        : (above == "1" ? "" : "_" + above) +
+                                              (over == std::string::npos ? "" : "_per_" + all[k].unit.substr(over + 1));
       out.parameters.push_back({fmt::format("{}.{}{}", body, all[k].name, ending), 0.0, false, {}});
       wheelrail::PairParameter parameter;
       parameter.shape_of = shape.facing, parameter.shape = k;
@@ -223,6 +239,23 @@ class CaseTangents {
     out.parameters.push_back({"", 0.0, true, {}});
     const Sides sides{beside(step), beside(-step), step};
     asked_.push_back({out.parameters.size() - 1, sides, {changes(sides), step}});
+  }
+
+  void add_fields(wheelrail::Pair& pair, const wheelrail::PairSolution& solution, io::CaseResult& shown) const {
+    try {
+      const std::vector<wheelrail::HeightGradient> found =
+          pair.height_gradients(base_->problem, solution, solution.patches.size(),
+                                [](const wheelrail::PairSolution& s, std::span<double> values) {
+                                  for (std::size_t k = 0; k < values.size(); ++k)
+                                    values[k] = s.patches[k].contact.max_pressure;
+                                });
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        io::PatchFields& fields = shown.patches[k].fields;
+        if (found[k].report.status != Status::ok || !(fields.grid == solution.patches[k].grid)) continue;
+        fields.pmax_by_rail = found[k].rail_field[k], fields.pmax_by_wheel = found[k].wheel_field[k];
+      }
+    } catch (const Error&) {  // CONTACT's conventions, a hole in a surface: the table is there without them
+    }
   }
 
   static std::function<void(double, wheelrail::Problem&, wheelrail::Geometry&)> changes(const Sides& sides) {
@@ -303,13 +336,13 @@ std::vector<std::string> keys_for(const io::Case& c, const std::vector<std::stri
 }
 
 io::CaseDerivatives derivatives_of(const io::Case& c, SurfaceStore& store, const SampledRegions& regions,
-                                   const std::vector<std::string>& asked) {
+                                   const std::vector<std::string>& asked, io::CaseResult& shown) {
   io::CaseDerivatives none;
   if (!std::holds_alternative<io::WheelRailCase>(c.content)) {
     none.message = "a patch by itself has no placement: derivatives are those of a wheel on a rail";
     return none;
   }
-  return with_reason([&] { return CaseTangents(c, store, regions).by(keys_for(c, asked)); });
+  return with_reason([&] { return CaseTangents(c, store, regions).by(keys_for(c, asked), {}, &shown); });
 }
 
 }  // namespace
@@ -414,7 +447,7 @@ void add_derivatives(io::RunResult& result, const io::CaseFile& file, SurfaceSto
     for (io::CaseResult& solved : result.cases) {
       check_cancelled();
       while (c->number != solved.number) ++c;
-      solved.derivatives = derivatives_of(*c, store, regions, keys);
+      solved.derivatives = derivatives_of(*c, store, regions, keys, solved);
       if (progress.report)
         progress.report(++finished, result.cases.size(), fmt::format("derivatives of case {}", solved.number));
     }

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "treadmark/app/cases/case_derivatives.hpp"
@@ -18,6 +20,7 @@
 #include "treadmark/interfaces/c/calls.hpp"
 #include "treadmark/interfaces/c/handles.hpp"
 #include "treadmark/interfaces/c/many.hpp"
+#include "treadmark/interfaces/c/surfaces.hpp"
 
 namespace treadmark::c {
 namespace {
@@ -96,6 +99,36 @@ Beside beside_named(const tm_pair& p, const tm_solution& s, const std::string& n
   }
 }
 
+io::ListedNumber smooth_number(const char* name, tm_solution* s) {
+  require(name != nullptr, "the name of a number must not be null");
+  io::ListedNumber n = number_named(name, result_of(s));
+  if (!(n.of_case != nullptr ? n.of_case->access.smooth : n.of_patch != nullptr && n.of_patch->access.smooth))
+    throw Error(ErrorKind::configuration, fmt::format("{} has no derivatives", name), {},
+                "treadmark run --sensitivities names the numbers that have them");
+  return n;
+}
+
+wheelrail::HeightGradient by_heights(tm_pair* p, tm_solution* s, const char* name) {
+  io::WheelRailCase given = given_to(p, s);
+  const io::ListedNumber number = smooth_number(name, s);
+  if (!std::isfinite(number.si(result_of(s))))
+    throw Error(ErrorKind::numerical, fmt::format("{} is not known of this solution", name));
+  const wheelrail::Problem problem = app::to_problem(given, p->geometry.round_wheel);
+  given.subsurface = {};
+  std::vector<wheelrail::HeightGradient> found = p->pair.height_gradients(
+      problem, *s->pair, 1, [&](const wheelrail::PairSolution& beside, std::span<double> value) {
+        value[0] = number.si(app::to_result(given, beside));
+      });
+  if (found[0].report.status != Status::ok) throw Error(ErrorKind::numerical, found[0].report.message);
+  return std::move(found[0]);
+}
+
+std::size_t elements_of(const wheelrail::PairSolution& solution) {
+  std::size_t elements = 0;
+  for (const wheelrail::PatchSolution& patch : solution.patches) elements += patch.grid.size();
+  return elements;
+}
+
 }  // namespace
 }  // namespace treadmark::c
 
@@ -110,13 +143,8 @@ tm_status tm_pair_gradient(tm_pair* p, tm_solution* s, const char* const* number
     const io::WheelRailCase& given = given_to(p, s);
     require(derivatives != nullptr || n_numbers * n_by == 0, "derivatives must not be null");
     std::vector<io::ListedNumber> wanted;
-    for (const std::string& name : texts_of(numbers, n_numbers, "numbers must be n_numbers texts")) {
-      wanted.push_back(number_named(name, result_of(s)));
-      const io::ListedNumber& n = wanted.back();
-      if (!(n.of_case != nullptr ? n.of_case->access.smooth : n.of_patch != nullptr && n.of_patch->access.smooth))
-        throw Error(ErrorKind::configuration, fmt::format("{} has no derivatives", name), {},
-                    "treadmark run --sensitivities names the numbers that have them");
-    }
+    for (const std::string& name : texts_of(numbers, n_numbers, "numbers must be n_numbers texts"))
+      wanted.push_back(smooth_number(name.c_str(), s));
     std::vector<Beside> sides;
     for (const std::string& name : texts_of(by, n_by, "by must be n_by texts"))
       sides.push_back(beside_named(*p, *s, name));
@@ -147,9 +175,7 @@ tm_status tm_pair_gradient_by_gap(tm_pair* p, tm_solution* s, const char* number
   return guarded([&] {
     const io::WheelRailCase& given = given_to(p, s);
     require(number != nullptr && by_gap != nullptr, "number and by_gap must not be null");
-    std::size_t elements = 0;
-    for (const wheelrail::PatchSolution& patch : s->pair->patches) elements += patch.grid.size();
-    require(n == elements, "n must be the number of elements of all patches (tm_patch_grid)");
+    require(n == elements_of(*s->pair), "n must be the number of elements of all patches (tm_patch_grid)");
     if (given.damping)
       throw Error(ErrorKind::configuration, "forces with damping have no derivatives by gaps", {}, "leave it out");
     const app::GapNumber of = app::gap_number(number_named(number, result_of(s)));
@@ -158,6 +184,34 @@ tm_status tm_pair_gradient_by_gap(tm_pair* p, tm_solution* s, const char* number
     if (found.report.status != Status::ok) throw Error(ErrorKind::numerical, found.report.message);
     for (const std::vector<double>& patch : found.by_gap)
       by_gap = std::transform(patch.begin(), patch.end(), by_gap, [&](double by) { return of.factor * by; });
+  });
+}
+
+tm_status tm_pair_gradient_by_shape(tm_pair* p, tm_solution* s, const char* number, tm_body body, double* by_shape,
+                                    size_t n, int* exact) {
+  return guarded([&] {
+    given_to(p, s);
+    const bool rail = body_of(body) == Body::rail;
+    const Surface& surface = rail ? *p->geometry.rail : *p->geometry.wheel;
+    require(by_shape != nullptr || n == 0, "by_shape must not be null");
+    require(n == surface.parameter_count(), "n must be the number of the surface's parameters (tm_surface_parameters)");
+    const wheelrail::HeightGradient found = by_heights(p, s, number);
+    const wheelrail::ShapeGradient pulled = wheelrail::pulled_back(surface, rail ? found.rail : found.wheel);
+    std::copy(pulled.by.begin(), pulled.by.end(), by_shape);
+    if (exact != nullptr) *exact = pulled.heights == HeightsBy::exact ? 1 : 0;
+  });
+}
+
+tm_status tm_pair_gradient_by_height(tm_pair* p, tm_solution* s, const char* number, tm_body body, double* by_height,
+                                     size_t n) {
+  return guarded([&] {
+    given_to(p, s);
+    const bool rail = body_of(body) == Body::rail;
+    require(by_height != nullptr, "by_height must not be null");
+    require(n == elements_of(*s->pair), "n must be the number of elements of all patches (tm_patch_grid)");
+    const wheelrail::HeightGradient found = by_heights(p, s, number);
+    for (const std::vector<double>& patch : rail ? found.rail_field : found.wheel_field)
+      by_height = std::copy(patch.begin(), patch.end(), by_height);
   });
 }
 

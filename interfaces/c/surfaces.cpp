@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -214,6 +215,19 @@ tm_status tm_surface_heights(const tm_surface* s, const double origin[3], const 
       return values == nullptr ? std::span<double>() : std::span<double>(values, n);
     };
     s->represented.surface->heights_at(X_SP, points, {wanted(z), wanted(dzdx), wanted(dzdy)});
+  });
+}
+
+size_t tm_surface_parameters(const tm_surface* s) {
+  return s == nullptr ? 0 : s->represented.surface->parameter_count();
+}
+
+tm_status tm_surface_parameter_places(const tm_surface* s, double* xyz, size_t n) {
+  return guarded([&] {
+    require(s != nullptr && (xyz != nullptr || n == 0), "surface and places must not be null");
+    const std::vector<ShapeParameter> all = s->represented.surface->parameters();
+    require(n == all.size(), "n must be the number of parameters (tm_surface_parameters)");
+    for (const ShapeParameter& one : all) xyz = std::copy_n(one.place_S.data(), 3, xyz);
   });
 }
 

@@ -138,6 +138,10 @@ TM_API tm_status tm_surface_represent(const tm_surface *from, const char *backen
  * and dzdy: n numbers each, NaN where nothing is; after TM_CANCELLED they may be half written. */
 TM_API tm_status tm_surface_heights(const tm_surface *s, const double origin[3], const double rotation[9], const double *x,
                                     const double *y, size_t n, double *z, double *dzdx, double *dzdy);
+/* How many numbers its shape follows from, by which there are derivatives: points, coefficients, vertices (docs/representations.md). */
+TM_API size_t tm_surface_parameters(const tm_surface *s);
+/* Where they act in the surface's axes: xyz[3 * i], n of them; NaN: at no one place. */
+TM_API tm_status tm_surface_parameter_places(const tm_surface *s, double *xyz, size_t n);
 /* "spline", "mesh", ... Lent by the surface; null for null. */
 TM_API const char *tm_surface_backend(const tm_surface *s);
 TM_API void tm_surface_free(tm_surface *s);
@@ -174,6 +178,14 @@ TM_API tm_status tm_pair_gradient(tm_pair *p, tm_solution *s, const char *const 
  * (tm_patch_grid), then those of the next; n: of all. Of "wheelset.z", "force_on_rail.fz_tr", and of a patch "fn", "fx", "fs", "approach",
  * "pmax", "elastic_energy", "dissipated". A rail that is moved by d along n, into itself, adds d to the gap, a wheel takes it away. */
 TM_API tm_status tm_pair_gradient_by_gap(tm_pair *p, tm_solution *s, const char *number, double *by_gap, size_t n);
+/* Total derivatives of one number, as tm_pair_gradient has them, by all that the shape of one of the pair's surfaces follows from: n
+ * numbers, as many as tm_surface_parameters of that surface, in SI. exact: 0 where surfaces on both sides of a parameter were differenced
+ * for it; null: not wanted. Costs a few linear systems, however many there are, for surfaces that know how they move. */
+TM_API tm_status tm_pair_gradient_by_shape(tm_pair *p, tm_solution *s, const char *number, tm_body body, double *by_shape, size_t n,
+                                           int *exact);
+/* The same by the height of one surface over each element, along n of the patch (into the rail): as tm_pair_gradient_by_gap, but with all
+ * that contact planes and creepages do. What the gauge or the tape circle does is not at elements. */
+TM_API tm_status tm_pair_gradient_by_height(tm_pair *p, tm_solution *s, const char *number, tm_body body, double *by_height, size_t n);
 /* Forgets the last solution. */
 TM_API tm_status tm_pair_reset(tm_pair *p);
 TM_API tm_status tm_pair_save(const tm_pair *p, tm_state **out);

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <pybind11/numpy.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
@@ -261,6 +262,19 @@ py::tuple solve_many(const tm_pair& pair, const tm_case& common,
   return py::make_tuple(numbers, codes, said);
 }
 
+/// One field after the other, as arrays.
+py::list fields_on(const std::vector<Grid2>& grids, const std::shared_ptr<std::vector<double>>& values) {
+  const py::object owner = owner_of(values);
+  py::list fields;
+  const double* first = values->data();
+  for (const Grid2& grid : grids) {
+    fields.append(view(first, 'd', {grid.ny, grid.nx},
+                       {static_cast<py::ssize_t>(sizeof(double)) * grid.nx, sizeof(double)}, owner));
+    first += grid.size();
+  }
+  return fields;
+}
+
 /// A number of an instant, which starts from rest, and its derivatives by names, or without names by the gaps of each
 /// patch. The pair keeps what its last solution left.
 py::tuple gradient(const tm_pair& pair, const tm_case& c, const std::string& number, const Strings& by) {
@@ -286,15 +300,38 @@ py::tuple gradient(const tm_pair& pair, const tm_case& c, const std::string& num
     for (const std::string& one : by) names.push_back(one.c_str());
     check([&] { return tm_pair_gradient(&own, solution.get(), &name, 1, names.data(), names.size(), to); });
   });
-  const py::object owner = owner_of(gaps);
-  py::list by_gap;
-  const double* first = gaps->data();
-  for (const Grid2& grid : grids) {
-    by_gap.append(view(first, 'd', {grid.ny, grid.nx},
-                       {static_cast<py::ssize_t>(sizeof(double)) * grid.nx, sizeof(double)}, owner));
-    first += grid.size();
-  }
-  return py::make_tuple(value, derivatives, by_gap);
+  return py::make_tuple(value, derivatives, fields_on(grids, gaps));
+}
+
+/// A number of an instant as above, and its derivatives by all that a body's shape follows from: with where each acts,
+/// whether they are exact, and by heights over the elements of each patch.
+py::tuple shape_gradient(const tm_pair& pair, const tm_case& c, const std::string& number, const std::string& body) {
+  const tm_body of = body_named(body);
+  const Surface& surface = of == TM_RAIL ? *pair.geometry.rail : *pair.geometry.wheel;
+  const auto count = static_cast<py::ssize_t>(surface.parameter_count());
+  double value = 0.0;
+  int exact = 0;
+  Numbers by(count), places(std::vector<py::ssize_t>{count, 3});
+  double *const to = by.mutable_data(), *at = places.mutable_data();
+  std::vector<Grid2> grids;
+  auto heights = std::make_shared<std::vector<double>>();
+  released([&] {
+    tm_pair own{pair.geometry, wheelrail::Pair(pair.geometry), pair.wheel_radius, pair.roller_radius};
+    const auto solution = made<tm_solution>([&](auto out) { return tm_pair_solve(&own, &c, out); });
+    const io::CaseResult& result = c::result_of(solution.get());
+    value = io::listed_number(number, io::Names::si).si(result);
+    for (const io::PatchResult& patch : result.patches) grids.push_back(patch.fields.grid);
+    std::size_t elements = 0;
+    for (const Grid2& grid : grids) elements += grid.size();
+    heights->resize(elements);
+    const char* const name = number.c_str();
+    check([&] {
+      return tm_pair_gradient_by_shape(&own, solution.get(), name, of, to, static_cast<std::size_t>(count), &exact);
+    });
+    check([&] { return tm_pair_gradient_by_height(&own, solution.get(), name, of, heights->data(), elements); });
+    for (const ShapeParameter& one : surface.parameters()) at = std::copy_n(one.place_S.data(), 3, at);
+  });
+  return py::make_tuple(value, by, places, exact != 0, fields_on(grids, heights));
 }
 
 py::bytes bytes_of(const tm_state& state) {
@@ -442,6 +479,7 @@ void add_handles(py::module_& module) {
       .def("solve_all", solve_all)
       .def("solve_many", solve_many)
       .def("gradient", gradient)
+      .def("shape_gradient", shape_gradient)
       .def("reset", [](tm_pair& pair) { check([&] { return tm_pair_reset(&pair); }); })
       .def("save",
            [](const tm_pair& pair) { return made<tm_state>([&](auto out) { return tm_pair_save(&pair, out); }); })

@@ -64,6 +64,10 @@ inline constexpr FieldColumn kFieldColumns[] = {
      {120, "temperature of the wheel", "°C", 1.0, ShownField::Kind::sequential, ShownField::Outside::value}},
     {"extra_slip_x", "1", "m", "longitudinal rigid slip beyond the creepages", &PatchFields::extra_slip_x},
     {"extra_slip_s", "1", "m", "lateral rigid slip beyond the creepages", &PatchFields::extra_slip_s},
+    {"pmax_by_rail", "Pa/m", "Pa/m", "derivative of the largest pressure by the height of the rail along n", &PatchFields::pmax_by_rail,
+     {150, "largest pressure by height of the rail", "MPa/µm", kMega * kMega, ShownField::Kind::diverging, ShownField::Outside::value}},
+    {"pmax_by_wheel", "Pa/m", "Pa/m", "derivative of the largest pressure by the height of the wheel along n", &PatchFields::pmax_by_wheel,
+     {160, "largest pressure by height of the wheel", "MPa/µm", kMega * kMega, ShownField::Kind::diverging, ShownField::Outside::value}},
 };
 // clang-format on
 

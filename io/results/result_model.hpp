@@ -113,6 +113,9 @@ struct PatchFields {
   std::vector<double> temperature_1, temperature_2;
   /// Rigid slip of the surfaces beyond creepages and spin, relative as slip is (shift: [m]); empty = none.
   std::vector<double> extra_slip_x, extra_slip_s;
+  /// Total derivatives of the patch's largest pressure by heights of rail and wheel over each element, along n [Pa/m];
+  /// empty unless derivatives were asked for.
+  std::vector<double> pmax_by_rail, pmax_by_wheel;
   /// Curved reference: inclination of each row against the contact plane [rad]; tractions and slip are in the axes of
   /// the row and s is the arc length of the reference. Empty: a plane.
   std::vector<double> row_angle;

@@ -15,7 +15,7 @@ from ._inputs import checked as _checked
 from ._records import CASE_QUANTITIES, FIELDS, PATCH_QUANTITIES, Case, Field, Grid, Patch, Quantity, Remark, Result
 from ._requests import (Conicity, GaugeMap, Geometry, Jump, LibraryProfile, LimitCheck, Measure, Measured, SecondContact, ShiftLimit, geometry,
                         measure, measure_files, measures_to_pandas, profiles)
-from ._solving import Gradient, Pair, PatchSolver, Problem, Solution, State, hertz, settings
+from ._solving import Gradient, Pair, PatchSolver, Problem, ShapeGradient, Solution, State, hertz, settings
 from ._surfaces import Evaluated, Line, Located, Surface, backends, load_plugins, register_backend
 from ._tables import ForceTable, TableError
 from ._verbs import (Assessment, BandMap, Bench, Check, CheckedProfile, Column, Comparison, Event, Evolution, LivePage, Mode, Position, Response,

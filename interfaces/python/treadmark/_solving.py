@@ -176,6 +176,18 @@ class Gradient(NamedTuple):
     by_gap: list[npt.NDArray[np.float64]]
 
 
+class ShapeGradient(NamedTuple):
+    """A number of a solution and its total derivatives by all that the shape of a body follows from (Surface.parameters), an array of shape
+    (n,), with the places where these act in the surface's axes, (n, 3) [m], NaN: at no one place. exact: else surfaces on both sides were
+    differenced. by_height: by the height of the body over each element, along n, of shape (ny, nx) for each patch. In SI."""
+
+    value: float
+    by: npt.NDArray[np.float64]
+    places: npt.NDArray[np.float64]
+    exact: bool
+    by_height: list[npt.NDArray[np.float64]]
+
+
 @checked
 class Pair:
     """A wheel on a rail, and what the last solution left. Several threads may use it; they wait for each other.
@@ -303,6 +315,14 @@ class Pair:
             value, derivatives, by_gap = self._open().gradient(case, _listed(quantity), [name for name, _ in given])
         return Gradient(value, derivatives * np.array([si for _, si in given]), by_gap)
 
+    def shape_gradient(self, quantity: str, body: str, problem: Problem | None = None, *, set: Changes = None, **values: Any) -> ShapeGradient:
+        """As gradient(), by all parameters of the surface of the body, "rail" or "wheel", at once: of a measured profile its points, of slices,
+        splines, offsets and triangles their coefficients, nodes and vertices. Costs a few linear systems, however many parameters there are."""
+        base = problem or self.problem
+        case = base.replace(set, **values)._case if values or set else base._case
+        with self._lock:
+            return ShapeGradient(*self._open().shape_gradient(case, _listed(quantity), body))
+
     def step(self, problem: Problem | None = None, *, set: Changes = None, **values: Any) -> Solution:
         """Solves the next instant: goes on from the last solution. Keywords as in solve(), for example regime="transient"."""
         solution: Solution = self.solve(problem, set=set, **{"history": "continue", **values})
@@ -374,4 +394,4 @@ def hertz(normal_force: Newton, semi_axes: tuple[float, float] | None = None, cu
     return PatchSolver().solve(normal_force=normal_force, mx=mx, my=my, set={"patch.hertz.given": "semi_axes" if semi_axes is not None else "curvatures", **given}, **values)
 
 
-__all__ = ["Case", "Gradient", "Pair", "PatchSolver", "Problem", "Solution", "State", "hertz", "settings"]
+__all__ = ["Case", "Gradient", "Pair", "PatchSolver", "Problem", "ShapeGradient", "Solution", "State", "hertz", "settings"]

@@ -70,6 +70,43 @@ TEST(CGradients, ByTheGapKeepWhatMovesRigidly) {
   EXPECT_NEAR(pressure, 0.0, 1e-5 * largest);
 }
 
+/// The wheel is formulas: what is told of each is what is told of all.
+TEST(CGradients, ByAllThatAShapeFollowsFrom) {
+  const CaseOf given = case_of(kExactText);
+  const PairOf pair = pair_of(given.get());
+  const SolutionOf s = solved(pair.get(), given.get());
+  tm_surface* wheel = nullptr;
+  ASSERT_EQ(tm_surface_of_case(given.get(), TM_WHEEL, &wheel), TM_OK) << tm_message();
+  const std::size_t n = tm_surface_parameters(wheel);
+  ASSERT_GT(n, 3u);
+  std::vector<double> by(n), places(3 * n);
+  int exact = -1;
+  ASSERT_EQ(tm_pair_gradient_by_shape(pair.get(), s.get(), "pmax", TM_WHEEL, by.data(), n, &exact), TM_OK)
+      << tm_message();
+  EXPECT_EQ(exact, 1);
+  EXPECT_EQ(tm_surface_parameter_places(wheel, places.data(), n), TM_OK) << tm_message();
+  EXPECT_LT(places[1], places[3 * n - 2]) << "from the flange on";
+  double largest = 0.0;
+  for (const double one : by) largest = std::max(largest, std::abs(one));
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::string name = "wheel.piece_" + std::to_string(k) + "_bend";
+    const char *number = "pmax", *piece = name.c_str();
+    double alone = 0.0;
+    ASSERT_EQ(tm_pair_gradient(pair.get(), s.get(), &number, 1, &piece, 1, &alone), TM_OK) << tm_message();
+    EXPECT_NEAR(by[k], alone, 1e-3 * largest) << name;
+  }
+  std::vector<double> heights(field(s.get(), 0, "pressure").size());
+  EXPECT_EQ(tm_pair_gradient_by_height(pair.get(), s.get(), "pmax", TM_RAIL, heights.data(), heights.size()), TM_OK)
+      << tm_message();
+  EXPECT_EQ(tm_pair_gradient_by_height(pair.get(), s.get(), "pmax", TM_RAIL, heights.data(), 1), TM_BAD_ARGUMENT);
+  EXPECT_EQ(tm_pair_gradient_by_shape(pair.get(), s.get(), "pmax", TM_WHEEL, by.data(), n + 1, nullptr),
+            TM_BAD_ARGUMENT);
+  EXPECT_EQ(tm_pair_gradient_by_shape(pair.get(), s.get(), "elements.ncon", TM_WHEEL, by.data(), n, nullptr),
+            TM_BAD_REQUEST);
+  EXPECT_EQ(tm_surface_parameter_places(wheel, places.data(), n - 1), TM_BAD_ARGUMENT);
+  tm_surface_free(wheel);
+}
+
 TEST(CGradients, SayWhatHasNone) {
   const CaseOf given = case_of(kExactText);
   const PairOf pair = pair_of(given.get()), other = pair_of(given.get());

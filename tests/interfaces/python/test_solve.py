@@ -106,10 +106,16 @@ def test_gradients(pair, rail):
     assert ((fields[0] != 0.0) <= (patch.state > 0)).all() and not fields[0].flags.writeable
     points = np.linspace(-0.03, 0.03, 121)
     measured = tm.Surface.profile(points, rail.heights(0.0, points), "rail")
-    assert rail.parameters == [] and measured.parameters[60] == ("point_60", "m")
+    assert rail.parameters[0] == ("segment_0_curvature", "1/m") and measured.parameters[60] == ("point_60", "m")
     worn = tm.Pair(measured, pair.wheel, pair.problem.replace(track__rail_y=0.7535, track__rail_z=0.0))
     by = worn.gradient("pmax", [f"rail.{name}" for name, unit in measured.parameters[20:100]], set=exact).by
     assert min(abs(by[0]), abs(by[-1])) < 1e-3 * abs(by).max()  # far from the contact
+    whole = worn.shape_gradient("pmax", "rail", set=exact)  # of all points at once
+    assert whole.exact and whole.by.shape == (121,) and whole.by[20:100] == pytest.approx(by, abs=1e-3 * abs(by).max())
+    assert whole.places.shape == (121, 3) and whole.places[60, 1] == pytest.approx(points[60], abs=1e-9)
+    assert whole.by_height[0].shape == worn.solve(set=exact).patches[0].pressure.shape
+    with pytest.raises(tm.InputError, match="rail"):
+        worn.shape_gradient("pmax", "sleeper")
     for wrong in ({"quantity": "elements.ncon", "by": ["y"]}, {"quantity": "pmaximum"}, {"quantity": "y_tr"}, {"quantity": "pmax", "by": ["law"]},
                   {"quantity": "pmax", "by": ["y"], "set": {"solver.tangential_model": "fastsim"}}):
         with pytest.raises(tm.InputError):
