@@ -25,7 +25,8 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 struct Level {
   std::size_t pass;  // number in the list of passes
   double d;
-  Vec6 change;  // of d by shift and turn about the middle of the pass
+  Vec6 change;      // of d by shift and turn about the middle of the pass
+  double variance;  // of d, by the scatter of its points [m^2]
 
   Eigen::Index row() const { return static_cast<Eigen::Index>(6 * pass); }
 };
@@ -33,6 +34,15 @@ using Cell = std::vector<Level>;
 
 Vec3 place_on(const Band& band, double u, const Section::Point& at) {
   return from_natural(band.body, {u, at.position.x(), at.position.y()});
+}
+
+/// Of the median of normally distributed values.
+double variance_of_median(std::span<const float> values, double median) {
+  constexpr double kOfMeanSize = 0.5 * kPi;  // of both: squares of standard deviations over mean sizes, of medians
+  double size = 0.0;
+  for (const float value : values) size += std::fabs(static_cast<double>(value) - median);
+  const auto count = static_cast<double>(values.size());
+  return kOfMeanSize * kOfMeanSize * std::pow(size / count, 2) / count;
 }
 
 /// Lists the passes with their middles; returns of each point the number in the list.
@@ -84,7 +94,8 @@ std::vector<Cell> find_levels(const BandPoints& points, const Band& band, std::s
       const Vec3 p = place_on(band, u, at), n = direction(band.body, u, at.normal);
       for (std::size_t k = 0; k < d.size(); ++k) {
         if (d[k].size() < kFewestInCell) continue;
-        Level level{k, median_of(d[k]), {}};
+        Level level{k, median_of(d[k]), {}, 0.0};
+        level.variance = variance_of_median(d[k], level.d);
         level.change << n, (p - passes[k].middle_S).cross(n);
         cells[row * columns + column].push_back(level);
       }
@@ -108,6 +119,16 @@ class MotionFit {
       const std::vector<double> r = residuals(cell);
       for (const double value : r) square += value * value;
       count += static_cast<double>(r.size() - 1);
+    }
+    return count > 0.0 ? std::sqrt(square / count) : 0.0;
+  }
+  /// What scatter of points makes of that.
+  double expected_rms() const {
+    double square = 0.0, count = 0.0;
+    for (const Cell& cell : cells_) {
+      const auto levels = static_cast<double>(cell.size());
+      for (const Level& level : cell) square += (1.0 - 1.0 / levels) * level.variance;
+      count += levels - 1.0;
     }
     return count > 0.0 ? std::sqrt(square / count) : 0.0;
   }
@@ -200,6 +221,7 @@ PassSteps find_pass_steps(const BandPoints& points, const Band& band, std::span<
   out.before = fit.rms();
   fit.solve();
   out.after = fit.rms();
+  out.unexplained = std::sqrt(std::max(0.0, std::pow(out.after, 2) - std::pow(fit.expected_rms(), 2)));
   for (std::size_t k = 0; k < out.passes.size(); ++k) {
     out.passes[k].shift_S = fit.motion().segment<3>(static_cast<Eigen::Index>(6 * k));
     out.passes[k].turn_S = fit.motion().segment<3>(static_cast<Eigen::Index>(6 * k + 3));

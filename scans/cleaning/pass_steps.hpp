@@ -25,6 +25,7 @@ struct PassStep {
 struct PassSteps {
   std::vector<PassStep> passes;
   double before = 0.0, after = 0.0;  ///< rms distance between passes where they overlap [m]
+  double unexplained = 0.0;          ///< what scatter of the points leaves of the latter: how well passes agree [m]
 };
 
 /// Rigid motions of the passes that make them agree where they overlap: least squares on medians of distances from the

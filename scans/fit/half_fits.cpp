@@ -71,19 +71,26 @@ std::array<Section, 2> half_sections(const BandPoints& points, const Band& band,
   return {refine_section(half_of(points, 0), band, finest), refine_section(half_of(points, 1), band, finest)};
 }
 
-std::vector<double> error_stations(const Band& band, std::span<const Damage> damage) {
-  constexpr std::size_t kEven = 32, kInDamage = 8, kMostDamages = 4;
+std::vector<double> error_stations(const Band& band, std::span<const Damage> damage, std::span<const Hole> holes) {
+  constexpr std::size_t kEven = 32, kInDamage = 8, kMostDamages = 4, kMostHoles = 4;
+  constexpr double kBeside = 6e-3;  // from where no contact reaches a hole [m]
   std::vector<double> out;
+  const auto put = [&](double a) {
+    out.push_back(band.closed ? a - band.length() * std::floor(a / band.length()) : std::clamp(a, 0.0, band.length()));
+  };
   const auto add = [&](double from, double length, std::size_t count) {
-    for (std::size_t k = 0; k < count; ++k) {
-      const double a = from + length * (static_cast<double>(k) + 0.5) / static_cast<double>(count);
-      out.push_back(band.closed ? a - band.length() * std::floor(a / band.length())
-                                : std::clamp(a, 0.0, band.length()));
-    }
+    for (std::size_t k = 0; k < count; ++k)
+      put(from + length * (static_cast<double>(k) + 0.5) / static_cast<double>(count));
   };
   add(0.0, band.length(), kEven);
   for (const Damage& one : damage.first(std::min(kMostDamages, damage.size())))
     add(one.a - 0.5 * one.length, one.length, kInDamage);
+  std::size_t filled = 0;
+  for (const Hole& hole : holes) {
+    if (!hole.filled || filled++ >= kMostHoles) continue;
+    const double half = 0.5 * hole.diameter;
+    for (const double off : {-half - kBeside, -0.25 * half, 0.25 * half, half + kBeside}) put(hole.a + off);
+  }
   return out;
 }
 

@@ -73,19 +73,19 @@ Vec2 rolled(double roll, const Vec2& p) {
 
 constexpr double kFinest = 3e-6;
 
-/// Gauss-Newton steps with Tukey's weights; of the roll too where it is free.
+/// Gauss-Newton steps with Tukey's weights, as many at most; of the roll too where it is free.
 struct Fitted {
   SectionMatch match;
   double near = 0.0, agreeing = 0.0;  ///< points
 };
 
 Fitted fitted(const std::vector<Vec2>& points, const Section& nominal, const SectionMatch& start, bool rolls,
-              double scale) {
+              double scale, int rounds = 60) {
   Fitted out{start};
   SectionMatch& match = out.match;
   const Eigen::Index unknowns = rolls ? 3 : 2;
-  constexpr int kRounds = 60, kFewest = 30;
-  for (int round = 0; round < kRounds; ++round) {
+  constexpr int kFewest = 30;
+  for (int round = 0; round < rounds; ++round) {
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
     Eigen::Vector3d rhs = Eigen::Vector3d::Zero();
     std::vector<double> sizes;
@@ -208,6 +208,29 @@ std::array<double, 2> depths_of(std::span<const Vec2> points, const SectionMatch
 }
 
 }  // namespace
+
+Mat3 match_covariance(const Section& measured, const Section& nominal, Body body, const SectionMatch& match) {
+  constexpr double kPart = 15e-3;
+  constexpr std::size_t kFewestParts = 4;
+  constexpr int kRounds = 12;  // from where all parts together lie
+  const std::vector<Vec2> points = nodes_of(measured);
+  const std::size_t parts = std::max(kFewestParts, to_whole<std::size_t>(measured.length() / kPart));
+  std::vector<Vec3> found(parts);
+  parallel_for(parts, [&](std::size_t part) {
+    std::vector<Vec2> rest;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (i * parts / points.size() != part) rest.push_back(points[i]);
+    const SectionMatch one =
+        fitted(rest, nominal, match, body == Body::rail, std::max(2.0 * match.residual, kFinest), kRounds).match;
+    found[part] = {one.shift.x(), one.shift.y(), one.roll};
+  });
+  Vec3 mean = Vec3::Zero();
+  const auto count = static_cast<double>(parts);
+  for (const Vec3& one : found) mean += one / count;
+  Mat3 out = Mat3::Zero();
+  for (const Vec3& one : found) out += (count - 1.0) / count * (one - mean) * (one - mean).transpose();
+  return out;
+}
 
 Vec2 to_nominal(const SectionMatch& match, const Vec2& point) {
   return rolled(match.roll, {match.turned ? -point.x() : point.x(), point.y()}) + match.shift;

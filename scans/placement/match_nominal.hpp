@@ -47,6 +47,11 @@ struct SectionMatch {
 SectionMatch match_nominal(const Section& measured, const Section& nominal, Body body, bool keep_way,
                            std::span<const Vec2> points = {});
 
+/// Covariance of (shift in y, shift in v, roll) of such a match, in the nominal section's axes: parts of some 15 mm of
+/// the measured section are left out in turn (delete-group jackknife; Shao and Wu 1989), so that wear of one part,
+/// which pulls, counts as much as scatter.
+Mat3 match_covariance(const Section& measured, const Section& nominal, Body body, const SectionMatch& match);
+
 /// A point of the measured section's plane in the nominal's.
 Vec2 to_nominal(const SectionMatch& match, const Vec2& point);
 

@@ -198,6 +198,35 @@ std::optional<measured::Doubt> missing_sides(std::span<const Vec2> points, bool 
                   nominal || deep == 0 ? "neither side" : "only one side", kMilli * kDeep)};
 }
 
+/// Of a rail, as it was matched: errors of roll and height that go with one across belong to it.
+std::vector<SurfaceErrors::Motion> errors_of_match(const Mat3& covariance) {
+  // z points down; roots in this order
+  const Mat3 order{{1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {0.0, -1.0, 0.0}};
+  Mat3 rest = order * covariance * order.transpose();
+  std::vector<SurfaceErrors::Motion> out;
+  for (const auto& [source, k] :
+       {std::pair{ErrorSource::lateral, 0}, std::pair{ErrorSource::tilt, 1}, std::pair{ErrorSource::height, 2}}) {
+    if (!(rest(k, k) > 0.0)) continue;
+    const Vec3 one = rest.col(k) / std::sqrt(rest(k, k));
+    out.push_back({source, one[0], one[2], one[1]});
+    rest -= one * one.transpose();
+  }
+  return out;
+}
+
+/// Of a wheel: across, by the match or what tells it otherwise; its axle by the scatter of the points. A lean of the
+/// axle turns the section, and moves it across by the radius.
+std::vector<SurfaceErrors::Motion> errors_of_wheel(const Placement& found, double across) {
+  constexpr double kOneAxis = 0.5 * std::numbers::sqrt2;  // of two that errors of the axle have
+  const double lean = kOneAxis * found.direction_error,
+               height = std::hypot(found.radius_error, kOneAxis * found.position_error);
+  std::vector<SurfaceErrors::Motion> out;
+  if (across > 0.0) out.push_back({ErrorSource::lateral, across, 0.0, 0.0});
+  if (lean > 0.0) out.push_back({ErrorSource::tilt, -found.nominal_radius * lean, 0.0, lean});
+  if (height > 0.0) out.push_back({ErrorSource::height, 0.0, height, 0.0});
+  return out;
+}
+
 }  // namespace
 
 RoughPlace find_roughly(std::span<const Vec3> points, std::span<const std::uint8_t> keep, Body body) {
@@ -301,6 +330,7 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
 
   Placement found;
   RefinedAxis refined;
+  Mat3 covariance = Mat3::Zero();  // of the match
   KnownOfSection known;
   known.error.setConstant(kInfinity);
   constexpr double kRadiusKnown = 0.05e-3, kContradicts = 5.0;
@@ -334,6 +364,7 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
         match = matched();
         found.radius_error = radius_error(refined, match.turn->datum.x());
       }
+      if (round + 1 == rounds) covariance = match_covariance(refined.fit.section, *settings.nominal, body, match);
       if (match.turned) X_CS = turned(X_CS);
       Pose to_new;  // from the present frame to the nominal one
       to_new.rotation = wheel ? Mat3::Identity() : rotation_x(match.roll);
@@ -372,12 +403,14 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
     }
   }
   std::vector<Vec2> section = across(used, body, X_CS);
+  std::optional<double> beside_back;  // how far the datum is from where the back of a flange has it
   if (wheel) {
     // a worn flange fits the nominal one best where it is not
     measured::SectionPoints seen = with_back(outline(section), section, found.nominal_radius);
     measured::Understanding understood = measured::understand(seen, {measured::Turn::no, measured::Turn::no});
     found.moved_by_back = understood.shift_y;
     found.doubts = std::move(understood.doubts);
+    if (const auto& back = understood.wheel.back_y) beside_back = *back + kDatum;
     if (auto doubt = missing_flange(understood.wheel, settings.nominal.has_value()))
       found.doubts.push_back(*std::move(doubt));
     X_CS = X_CS * Pose{Vec3(0.0, -found.moved_by_back, 0.0), Mat3::Identity()};
@@ -394,7 +427,10 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
   found.position_error = refined.position_error;
   found.direction_error = refined.direction_error;
   found.iterations = refined.iterations;
-  if (!wheel) return found;
+  if (!wheel) {
+    found.errors = errors_of_match(covariance);
+    return found;
+  }
   found.arc = arc_of(used, {X_CS.origin, X_CS.rotation.col(1)});
   constexpr double kMostRadius = 0.5e-3, kMostDirection = 5e-3;
   if (!(found.radius_error < kMostRadius) || !(found.direction_error < kMostDirection))
@@ -404,6 +440,8 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
                     "uncertain by {:.2g} mm and the direction of the axle by {:.2g} mrad (standard errors)",
                     found.arc * 180.0 / std::numbers::pi, 1e3 * found.radius_error, 1e3 * found.direction_error),
         {}, kKnowMore);
+  found.errors = errors_of_wheel(
+      found, beside_back ? std::hypot(*beside_back, found.scatter) : std::sqrt(std::max(0.0, covariance(0, 0))));
   return found;
 }
 

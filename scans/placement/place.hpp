@@ -10,6 +10,7 @@
 #include "treadmark/analysis/measured/section.hpp"
 #include "treadmark/model/shape/length_unit.hpp"
 #include "treadmark/model/shape/profile.hpp"
+#include "treadmark/model/shape/surface_errors.hpp"
 #include "treadmark/scans/placement/elements.hpp"
 #include "treadmark/scans/placement/match_nominal.hpp"
 #include "treadmark/scans/placement/refine_axis.hpp"
@@ -58,6 +59,7 @@ struct Placement {
   double radius_error = 0.0;                           ///< of a wheel's radius at the datum [m]
   double arc = 0.0;                                    ///< of the circumference of a wheel that was scanned [rad]
   int iterations = 0;
+  std::vector<SurfaceErrors::Motion> errors;  ///< that the place may have: lateral, tilt, height
 };
 
 /// The frame that place() begins with: x along a rail by the settings, or as the axis of the cloud does that is nearest

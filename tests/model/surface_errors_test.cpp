@@ -56,6 +56,70 @@ TEST(SurfaceErrors, LinesHoldThem) {
   }
 }
 
+/// With motions, a field of each station and one of all.
+SurfaceErrors with_all_sources() {
+  SurfaceErrors out = sample(40, 3);
+  out.motions = {{ErrorSource::lateral, 0.123456789e-3, -2e-6, 1.5e-4}, {ErrorSource::scanner, 1e-4, 0.0, 0.0}};
+  out.fields = {{ErrorSource::holes, 4e-3, std::vector(3, std::vector<double>(40, 2.5e-6))},
+                {ErrorSource::registration, 20e-3, {std::vector<double>(40, 1e-6)}}};
+  return out;
+}
+
+TEST(SurfaceErrors, LinesHoldTheirSources) {
+  const SurfaceErrors errors = with_all_sources();
+  const std::vector<std::string> lines = to_lines(errors);
+  const auto back = errors_of_lines(lines);
+  ASSERT_NE(back, nullptr);
+  ASSERT_EQ(back->motions.size(), 2u);
+  EXPECT_EQ(back->motions[1].source, ErrorSource::scanner);
+  EXPECT_NEAR(back->motions[0].y, errors.motions[0].y, 1e-9);
+  EXPECT_DOUBLE_EQ(back->motions[0].z, -2e-6);
+  EXPECT_DOUBLE_EQ(back->motions[0].roll, 1.5e-4);
+  ASSERT_EQ(back->fields.size(), 2u);
+  EXPECT_EQ(name_of(back->fields[0].source), "filled holes");
+  EXPECT_EQ(back->fields[0].sigma.size(), 3u);
+  EXPECT_NEAR(back->fields[0].at(2)[39], 2.5e-6, 0.51e-8);
+  EXPECT_NEAR(back->fields[1].at(2)[0], 1e-6, 0.51e-8) << "one curve is that of all stations";
+  EXPECT_EQ(to_lines(*back), lines);
+  for (std::size_t k = 1; k < lines.size(); ++k) {
+    std::vector<std::string> fewer = lines;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
+    EXPECT_THROW(errors_of_lines(fewer), Error) << "without line " << k;
+  }
+  for (const char* wrong :
+       {"surface-errors 2 2 1 1 0 0 0 1 0 0 0 0 9 0 0 0", "surface-errors 2 2 1 0 1 0 0 1 0 0 0 0 4 0 1 5 5",
+        "surface-errors 2 2 1 0 1 0 0 1 0 0 0 0 4 0.004 2 5 5 5 5", "surface-errors 2 2 1 101 0 0 0 1 0 0 0 0"})
+    EXPECT_THROW(errors_of_lines(std::vector<std::string>{wrong}), Error) << wrong;
+  EXPECT_NE(errors_of_lines(std::vector<std::string>{"surface-errors 2 2 1 1 1 0 0 1 0 0 0 0 0 0 0 0 4 0.004 1 5 5"}),
+            nullptr);
+}
+
+TEST(SurfaceErrors, SourcesChangeWithTheCoordinates) {
+  const SurfaceErrors errors = with_all_sources(), mirrored = changed(errors, 2.0, true, false, Stations::along),
+                      wheel = changed(errors, 1.0, false, true, Stations::round);
+  EXPECT_EQ(mirrored.motions[0].y, -2.0 * errors.motions[0].y);
+  EXPECT_EQ(mirrored.motions[0].z, 2.0 * errors.motions[0].z);
+  EXPECT_EQ(mirrored.motions[0].roll, -errors.motions[0].roll);
+  EXPECT_EQ(mirrored.fields[0].length, 2.0 * errors.fields[0].length);
+  EXPECT_EQ(mirrored.fields[0].sigma[1][0], 2.0 * errors.fields[0].sigma[1][39]);
+  EXPECT_EQ(wheel.motions[0].z, errors.motions[0].z) << "of a wheel it is that of the radius";
+  EXPECT_EQ(wheel.motions[0].roll, errors.motions[0].roll);
+}
+
+TEST(SurfaceErrors, DeviationsAddUp) {
+  SurfaceErrors errors = sample(2, 2);
+  errors.draws = {{3e-6, 0.0}, {-3e-6, 0.0}};
+  errors.y = {0.02, 0.0}, errors.z = {0.0, 0.0};
+  errors.motions = {{ErrorSource::tilt, 0.0, 0.0, 2e-4}};
+  errors.fields = {{ErrorSource::smoothing, 4e-3, {{12e-6, 0.0}}}};
+  const std::size_t near[] = {0, 1};
+  EXPECT_NEAR(deviation_at(errors, 0, near, 0.0), 1e-6 * std::sqrt(9.0 + 16.0 + 144.0), 1e-12);
+  EXPECT_EQ(deviation_at(errors, 1, near, 0.0), 0.0) << "the section turns about its origin";
+  errors.motions = {{ErrorSource::lateral, 1e-4, 0.0, 0.0}};
+  errors.fields.clear();
+  EXPECT_NEAR(deviation_at(errors, 1, near, 0.1), 1e-4 * std::sin(0.1), 1e-12) << "a slope goes along";
+}
+
 TEST(SurfaceErrors, OtherLinesAreNone) {
   EXPECT_EQ(errors_of_lines({}), nullptr);
   const std::vector<std::string> lines{"from wheel.ply", " surface-errors 1", "surface errors 1 2 3"};

@@ -3,11 +3,15 @@
 #include "treadmark/scans/placement/match_nominal.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "treadmark/core/to_whole.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/tests/scans/placement/cases.hpp"
 
 namespace treadmark::scans {
@@ -60,6 +64,40 @@ TEST(MatchNominal, FindsShiftAndWayOfAWheel) {
       EXPECT_LT(found.beside, 0.02);
       EXPECT_GT(found.overlap, 0.95);
     }
+}
+
+/// Sections with deviations some centimetres long, of which each pulls: where matches lie scatters as they say.
+TEST(MatchNominal, KnowsHowWellItLies) {
+  constexpr int kSections = 24;
+  constexpr double kOff = 40e-6;
+  for (const Body body : {Body::wheel, Body::rail}) {
+    const auto nominal = body == Body::wheel ? between(tests::nominal_points("S1002", Body::wheel), -62e-3, 55e-3)
+                                             : between(tests::nominal_points("60E1", Body::rail), -33e-3, 33e-3);
+    const Section right(nominal);
+    std::mt19937 random(2);
+    std::normal_distribution<double> normal;
+    double stated = 0.0, true_square = 0.0;
+    for (int k = 0; k < kSections; ++k) {
+      std::array<double, 12> at{};
+      for (double& value : at) value = kOff * normal(random);
+      std::vector<Vec2> points;
+      for (double s = 0.0; s <= right.length(); s += 0.5e-3) {
+        // smoothly from one value to the next
+        const double x = s / right.length() * 11.0;
+        const auto cell = std::min<std::size_t>(10, to_whole<std::size_t>(std::floor(x)));
+        const double t = x - static_cast<double>(cell), share = t * t * (3.0 - 2.0 * t);
+        const Section::Point p = right.at(s);
+        points.push_back(p.position + ((1.0 - share) * at[cell] + share * at[cell + 1]) * p.normal);
+      }
+      const Section measured(points);
+      const SectionMatch match = match_nominal(measured, right, body, true);
+      stated += match_covariance(measured, right, body, match)(0, 0);
+      true_square += match.shift.x() * match.shift.x();
+    }
+    EXPECT_GT(std::sqrt(stated / true_square), 0.5) << body_name(body);
+    EXPECT_LT(std::sqrt(stated / true_square), 2.0) << body_name(body);
+    EXPECT_LT(std::sqrt(match_covariance(right, right, body, match_nominal(right, right, body, true))(0, 0)), 2e-6);
+  }
 }
 
 TEST(MatchNominal, FindsShiftRollAndWayOfARail) {
