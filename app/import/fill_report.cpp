@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/random.hpp"
 #include "treadmark/core/to_whole.hpp"
@@ -99,6 +100,37 @@ void fill_maps(const ImportFindings& found, io::ImportReport& report) {
     return points.begin[r * points.columns + c + 1] > points.first(r, c) ? found.noise.at(r, c) : kNone;
   });
 }
+
+}  // namespace
+
+void fill_error_map(const ImportFindings& found, const SurfaceErrors& errors, io::ImportReport& report) {
+  constexpr std::size_t kNear = 16;  // draws, as in results
+  const scans::BandPoints& points = found.projection.points;
+  const scans::FittedBand& fitted = found.fitted;
+  const bool wheel = found.scan.body == Body::wheel;
+  std::vector<std::vector<std::size_t>> near(points.rows);
+  parallel_for(points.rows, [&](std::size_t row) {
+    const double a = points.cell_a * (static_cast<double>(row) + 0.5);
+    near[row] = nearest_draws(errors, fitted.u_at(a), kNear, wheel ? 2.0 * kPi : 0.0);
+  });
+  std::vector<double> s, tilt;
+  std::vector<std::size_t> place;
+  for (std::size_t c = 0; c < points.columns; ++c) {
+    s.push_back(points.cell_s * (static_cast<double>(c) + 0.5));
+    const scans::Section::Point at = fitted.band.section.at(s.back());
+    tilt.push_back(std::atan2(wheel ? -at.normal.x() : at.normal.x(), at.normal.y()));
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < errors.y.size(); ++i)
+      if (std::fabs(errors.y[i] - at.position.x()) < std::fabs(errors.y[best] - at.position.x())) best = i;
+    place.push_back(best);
+  }
+  report.error_map = map_of(found, map_frame(found), [&](std::size_t r, std::size_t c) {
+    const bool inside = s[c] >= fitted.s_min && s[c] <= fitted.s_max;
+    return inside ? deviation_at(errors, place[c], near[r], tilt[c]) : kNaN;
+  });
+}
+
+namespace {
 
 void fill_sections(const ImportFindings& found, io::ImportReport& report) {
   const bool wheel = found.scan.body == Body::wheel;

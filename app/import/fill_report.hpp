@@ -25,6 +25,9 @@ struct ImportFindings {
 };
 void fill_report(const ImportFindings& found, io::ImportReport& report);
 
+/// How well the surface is known everywhere, by its errors.
+void fill_error_map(const ImportFindings& found, const SurfaceErrors& errors, io::ImportReport& report);
+
 /// The part of it that only the place tells.
 void fill_placement(const PlacedScan& scan, io::ImportReport& report);
 

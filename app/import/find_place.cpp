@@ -636,6 +636,7 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
           });
       if (round == 0) report.pass_before = steps.before;
       report.pass_after = steps.after;
+      scan.pass_error = steps.unexplained;
       for (std::size_t k = 0; k < steps.passes.size(); ++k) {
         const scans::PassStep& step = steps.passes[k];
         if (round == 0) report.passes.push_back({step.pass, step.points, Vec3::Zero(), Vec3::Zero()});

@@ -32,7 +32,8 @@ struct PlacedScan {
   std::optional<SurfaceSpec> nominal_spec;  ///< without a radius
   std::optional<scans::FoundLine> line;     ///< of a rail, in the cloud's own frame
 
-  double metres = 1.0;  ///< of a unit of the files
+  double metres = 1.0;      ///< of a unit of the files
+  double pass_error = 0.0;  ///< of heights, by how well passes agree [m]
   /// What laid the points where they are, once they were in metres, in its order: for the rest of a scan of which these
   /// are a sample.
   std::vector<std::function<void(std::span<Vec3> points, std::span<const std::uint16_t> passes)>> laid_by;

@@ -38,6 +38,7 @@
 #include "treadmark/model/shape/arc_at.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/scans/cleaning/thin.hpp"
+#include "treadmark/scans/fit/error_sources.hpp"
 #include "treadmark/scans/fit/half_fits.hpp"
 #include "treadmark/scans/fit/section_levels.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
@@ -171,15 +172,15 @@ std::optional<double> smooth_sections(SliceSet& slices) {
 
 /// What noise leaves uncertain of smoothed sections, in the mean over those that a contact patch near a station
 /// touches.
-std::shared_ptr<const SurfaceErrors> errors_of_sections(const SliceSet& slices, const scans::FittedBand& fitted,
-                                                        const std::vector<double>& stations) {
+std::optional<SurfaceErrors> errors_of_sections(const SliceSet& slices, const scans::FittedBand& fitted,
+                                                const std::vector<double>& stations) {
   constexpr double kPlaces = 0.5e-3, kHalfPatch = 6e-3;  // across, along [m]
   const bool wheel = slices.body == Body::wheel;
   const double radius = wheel ? fitted.band.radius : 1.0;
-  auto out = std::make_shared<SurfaceErrors>();
+  SurfaceErrors out;
   const Profile section = scans::section_profile(fitted, wheel ? radius : 0.0, kPlaces, slices.name);
-  out->y = section.y;
-  out->z = section.z;
+  out.y = section.y;
+  out.z = section.z;
   for (const double a : stations) {
     const double u = fitted.u_at(a);
     const auto distance = [&](std::size_t k) {
@@ -199,7 +200,7 @@ std::shared_ptr<const SurfaceErrors> errors_of_sections(const SliceSet& slices, 
       // amid others as a control point of a cubic spline, one, four and one sixths of which count
       parts = {{nearest, slices.approximate_u ? std::sqrt(18.0) / 6.0 : 1.0}}, sum = 1.0;
     }
-    std::vector<double> draw(out->y.size(), 0.0);
+    std::vector<double> draw(out.y.size(), 0.0);
     bool known = false;
     for (const auto& [k, share] : parts) {
       const Profile& profile = slices.profiles[k];
@@ -208,11 +209,11 @@ std::shared_ptr<const SurfaceErrors> errors_of_sections(const SliceSet& slices, 
       const measured::ErrorDraws draws(profile);
       for (std::size_t i = 0; i < draw.size(); ++i)
         draw[i] += share / sum *
-                   draws.at(k % draws.size(), arc_at(profile.scatter->s, profile.y, profile.z, {out->y[i], out->z[i]}));
+                   draws.at(k % draws.size(), arc_at(profile.scatter->s, profile.y, profile.z, {out.y[i], out.z[i]}));
     }
-    if (known) out->u.push_back(u), out->draws.push_back(std::move(draw));
+    if (known) out.u.push_back(u), out.draws.push_back(std::move(draw));
   }
-  return out->draws.empty() ? nullptr : out;
+  return out.draws.empty() ? std::nullopt : std::optional(std::move(out));
 }
 
 }  // namespace
@@ -236,6 +237,28 @@ std::vector<std::string> summary_lines(const io::ImportReport& report) {
     for (char& c : line)
       if (c == '\n' || c == '\r') c = ' ';
   return out;
+}
+
+std::shared_ptr<const SurfaceErrors> with_sources(SurfaceErrors errors, const PlacedScan& scan,
+                                                  const io::ImportSettings& settings, io::ImportReport& report) {
+  constexpr double kPassesAlike = 20e-3;  // passes that are not rigid differ from place to place [m]
+  const auto everywhere = [&](ErrorSource source, double length, double sigma) {
+    if (sigma > 0.0) errors.fields.push_back({source, length, {std::vector<double>(errors.y.size(), sigma)}});
+  };
+  errors.motions = scan.placement.errors;
+  if (const double lateral = 1e-3 * settings.errors.lateral_mm; lateral > 0.0)
+    errors.motions.push_back({ErrorSource::scanner, lateral, 0.0, 0.0});
+  everywhere(ErrorSource::registration, kPassesAlike, scan.pass_error);
+  everywhere(ErrorSource::scanner, 1e-3 * settings.errors.scanner_mm, 1e-6 * settings.errors.scanner_um);
+  report.errors = size_of(errors);
+  for (const SurfaceErrors::Motion& motion : errors.motions)
+    report.error_parts.push_back({std::string(name_of(motion.source)), motion.y, motion.z, motion.roll, 0.0, 0.0});
+  for (const SurfaceErrors::Field& field : errors.fields) {
+    double largest = 0.0;
+    for (const std::vector<double>& sigma : field.sigma) largest = std::max(largest, *ranges::max_element(sigma));
+    report.error_parts.push_back({std::string(name_of(field.source)), 0.0, 0.0, 0.0, largest, field.length});
+  }
+  return std::make_shared<const SurfaceErrors>(std::move(errors));
 }
 
 OnSection on_its_section(PlacedScan& scan, const io::ImportSettings& settings, double finest, double cells,
@@ -375,15 +398,20 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
   const double u_zero = zero_of(scan, projection.band, damage, settings, report);
   const scans::FittedBand fitted{projection.band, fit.field, s_min, s_max, u_zero};
   lay_zero(scan, u_zero);  // of the surface's own frame
-  std::shared_ptr<const SurfaceErrors> errors;
+  std::optional<SurfaceErrors> known_errors;
   if (settings.fit.errors) clock.begin("errors");
-  const std::vector<double> stations = scans::error_stations(projection.band, damage);
-  if (errors_of_fit)
-    errors = std::make_shared<const SurfaceErrors>(
+  const std::vector<double> stations = scans::error_stations(projection.band, damage, coverage.holes);
+  if (errors_of_fit) {
+    known_errors =
         scans::half_fit_errors(fitted, projection.points, noise, how_fit, found.halves ? &*found.halves : nullptr,
-                               stations, scan.placement.nominal_radius, inner));
+                               stations, scan.placement.nominal_radius, inner);
+    scans::add_error_sources({fitted, projection.points, noise, fit, coverage, damage},
+                             scans::shared_scatter(projection.points, noise, fit.residual), stations, *known_errors);
+  }
   fill_line(scan, settings, report);
-  fill_report({scan, projection, noise, coverage, fit, fitted, damage, sections ? &*sections : nullptr}, report);
+  const ImportFindings findings{scan, projection, noise,  coverage,
+                                fit,  fitted,     damage, sections ? &*sections : nullptr};
+  fill_report(findings, report);
 
   std::optional<SliceSet> kept;
   if (sections) {
@@ -394,9 +422,16 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
                                      scan.placement.nominal_radius, settings.fit.sections_along == "approximate",
                                      scan.body == Body::wheel ? "measured wheel" : "measured rail");
     if (settings.fit.smoothing == "auto") report.sections->smoothed = smooth_sections(*kept);
-    if (settings.fit.errors && report.sections->smoothed) errors = errors_of_sections(*kept, fitted, stations);
+    if (settings.fit.errors && report.sections->smoothed) known_errors = errors_of_sections(*kept, fitted, stations);
   }
-  if (errors) report.errors = size_of(*errors);
+  std::shared_ptr<const SurfaceErrors> errors;
+  if (known_errors) {
+    errors = with_sources(std::move(*known_errors), scan, settings, report);
+    fill_error_map(findings, *errors, report);
+  } else if (settings.errors.lateral_mm > 0.0 || settings.errors.scanner_um > 0.0) {
+    report.warnings.emplace_back(
+        "what [errors] says does not go with the surface: of sections that noise did not smooth no errors are known");
+  }
   const FittedScan whole{scan, fitted, projection.points, coverage, noise.typical, kept ? &*kept : nullptr, errors};
   for (const auto& file : request.outputs) check_holes(file, whole);
   if (truth) {
@@ -525,6 +560,14 @@ void check_settings(const io::ImportSettings& settings, Body body) {
     refuse("scan.box_from", "scan.box_to belongs to it");
   if (placement.line_beside_mm != 0.0 && io::extension_of(placement.line) != ".toml")
     refuse("placement.line_beside_mm", "placement.line names no layout");
+  const auto& errors = settings.errors;
+  if (errors.scanner_um > 0.0 && !(errors.scanner_mm > 0.0))
+    throw Error(ErrorKind::configuration, "errors.scanner_um needs to know how far points share it", {},
+                "say errors.scanner_mm");
+  if (errors.scanner_mm > 0.0 && !(errors.scanner_um > 0.0))
+    refuse("errors.scanner_mm", "errors.scanner_um says of no errors");
+  if (!settings.fit.errors && (errors.scanner_um > 0.0 || errors.lateral_mm > 0.0))
+    refuse(errors.lateral_mm > 0.0 ? "errors.lateral_mm" : "errors.scanner_um", "fit.errors is false");
   if (!placement.zero_direction.empty() && placement.zero != "direction")
     refuse("placement.zero_direction", "placement.zero is " + placement.zero);
   if (settings.fit.mesh == "free" && settings.fit.decimate_um > 0.0)

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "treadmark/app/import/find_place.hpp"
+#include "treadmark/model/shape/surface_errors.hpp"
 #include "treadmark/scans/cleaning/band_points.hpp"
 #include "treadmark/scans/fit/damage.hpp"
 #include "treadmark/scans/fit/fit_field.hpp"
@@ -38,6 +40,11 @@ double zero_of(const PlacedScan& scan, const scans::Band& band, const std::vecto
                const io::ImportSettings& settings, io::ImportReport& report);
 /// Moves the surface's own frame there.
 void lay_zero(PlacedScan& scan, double u_zero);
+
+/// Adds to what is known of a surface's errors how it may lie, how well passes agree and what is said of the scanner,
+/// and all of it to the report.
+std::shared_ptr<const SurfaceErrors> with_sources(SurfaceErrors errors, const PlacedScan& scan,
+                                                  const io::ImportSettings& settings, io::ImportReport& report);
 
 /// Lines about the import that the surface file itself carries.
 std::vector<std::string> summary_lines(const io::ImportReport& report);

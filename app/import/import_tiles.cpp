@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <system_error>
@@ -338,19 +339,19 @@ class JoinedTiles {
     return out;
   }
 
-  std::shared_ptr<const SurfaceErrors> errors(double u_of_zero) const {
-    auto out = std::make_shared<SurfaceErrors>();
+  std::optional<SurfaceErrors> errors(double u_of_zero) const {
+    SurfaceErrors out;
     for (const FittedTile& tile : tiles_) {
       if (tile.error_at.empty()) continue;
-      out->y = tile.error_y, out->z = tile.error_z;
+      out.y = tile.error_y, out.z = tile.error_z;
       const auto places = static_cast<std::ptrdiff_t>(tile.error_y.size());
       for (std::size_t k = 0; k < tile.error_at.size(); ++k) {
-        out->u.push_back(plan_.band.from + tile.error_at[k] - u_of_zero);
+        out.u.push_back(plan_.band.from + tile.error_at[k] - u_of_zero);
         const auto begin = tile.errors.begin() + static_cast<std::ptrdiff_t>(k) * places;
-        out->draws.emplace_back(begin, begin + places);
+        out.draws.emplace_back(begin, begin + places);
       }
     }
-    return out->draws.empty() ? nullptr : out;
+    return out.draws.empty() ? std::nullopt : std::optional(std::move(out));
   }
 
   void fill(double u_zero, std::size_t sorted) {
@@ -569,8 +570,9 @@ class TiledImport {
     fill_placement(scan_, report_);
     report_.nominal_section = scan_.nominal;
     tiles.fill(u_zero_, sorted);
-    const std::shared_ptr<const SurfaceErrors> errors = tiles.errors(u_zero_);
-    if (errors) report_.errors = size_of(*errors);
+    std::shared_ptr<const SurfaceErrors> errors;
+    if (std::optional<SurfaceErrors> known = tiles.errors(u_zero_))
+      errors = with_sources(std::move(*known), scan_, settings_, report_);
     tell_gaps(tiles.gaps());
     clock_.begin("writing");
     std::vector<Stretch> stretches = tiles.stretches();

@@ -238,6 +238,7 @@ void fit(const File& file, Report& report) {
   file.number("held_out_error_mm", report.held_out_error, kMilli);
   optional(file, "surface_errors", report.errors, kRows);
   later_list(file, "noise_classes", report.noise_classes, kRows);
+  later_list(file, "error_sources", report.error_parts, kRows);
   file.number("histogram_range_mm", report.residual_range, kMilli);
   file.value("histogram", report.residual_histogram);
   optional(file, "residuals", report.residuals, [](const File& node, auto& residuals) {
@@ -387,6 +388,7 @@ std::string import_report_schema() {
                                        {"sections", changed(schema_rows<Report::Sections>(), never_null)},
                                        {"level", schema_rows<Report::Level>()},
                                        {"errors", changed(schema_rows<ErrorSize>(), never_null)},
+                                       {"error_part", schema_rows<Report::ErrorPart>()},
                                        {"residuals", changed(schema_rows<Report::Distances>(), never_null)},
                                        {"distances", schema_rows<Report::Distances>()},
                                        {"damage", placed_rows<Report::Damage>()},

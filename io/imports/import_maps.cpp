@@ -32,6 +32,7 @@ constexpr MapName kMaps[] = {
      &ImportReport::fitted},
     {"residual", "m", "mean of measured less fitted", &ImportReport::residual},
     {"noise", "m", "standard deviation of the points", &ImportReport::noise_map},
+    {"error", "m", "standard deviation of the surface, by all that is known of its errors", &ImportReport::error_map},
     {"truth", "m", "the surface less the reference, best aligned", &ImportReport::truth_map},
 };
 

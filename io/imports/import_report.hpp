@@ -69,6 +69,13 @@ struct ImportReport {
     std::string details;                        ///< "412 slices of 301 points"
     double height_max = 0.0, height_rms = 0.0;  ///< distance of the written surface, read back, from the fitted one [m]
   };
+  /// What else than the scatter of its points leaves the surface uncertain: standard deviations of how it may lie in
+  /// its own axes, and of heights, the largest, of which places so far apart are off by themselves.
+  struct ErrorPart {
+    std::string source;                                ///< name_of(ErrorSource)
+    double lateral = 0.0, vertical = 0.0, roll = 0.0;  ///< [m], [rad]
+    double heights = 0.0, length = 0.0;                ///< [m]
+  };
   struct Step {
     std::string name;
     double seconds = 0.0;
@@ -195,7 +202,8 @@ struct ImportReport {
   std::size_t fitted_points = 0, held_out_points = 0;
   double residual_rms = 0.0, residual_max = 0.0, held_out_rms = 0.0, held_out_error = 0.0;
   std::optional<ErrorSize> errors;  ///< of the surface, by fits of halves of the points or by the noise of sections
-  std::vector<Damage> damage;       ///< largest first
+  std::vector<ErrorPart> error_parts;
+  std::vector<Damage> damage;  ///< largest first
   double damage_threshold = 0.0;
   double y_min = 0.0, y_max = 0.0, u_min = 0.0, u_max = 0.0;
   bool closed = false;  ///< a whole wheel
@@ -214,6 +222,7 @@ struct ImportReport {
   BandMap fitted;  ///< distance of the fitted surface from the section [m], > 0 out of the material; NaN in open holes
   BandMap residual;                             ///< mean of measured less fitted [m]
   BandMap noise_map;                            ///< standard deviation [m]
+  BandMap error_map;                            ///< standard deviation of the surface [m]
   BandMap truth_map;                            ///< the surface less the truth after the rigid motion [m]
   std::vector<std::size_t> residual_histogram;  ///< counts in equal bins from -residual_range to +residual_range
   double residual_range = 0.0;                  ///< [m]
@@ -283,5 +292,7 @@ template <>
 std::span<const Column<io::ImportReport::Registration>> columns();
 template <>
 std::span<const Column<ErrorSize>> columns();
+template <>
+std::span<const Column<io::ImportReport::ErrorPart>> columns();
 
 }  // namespace treadmark

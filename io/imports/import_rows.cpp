@@ -17,6 +17,7 @@ using Hole = io::ImportReport::Hole;
 using Damage = io::ImportReport::Damage;
 using Level = io::ImportReport::Level;
 using Output = io::ImportReport::Output;
+using ErrorPart = io::ImportReport::ErrorPart;
 using Step = io::ImportReport::Step;
 using Distances = io::ImportReport::Distances;
 using Kept = io::ImportReport::Sections;
@@ -147,6 +148,13 @@ constexpr Column<Registration> kRegistrations[] = {
     {"shift_error_um", kUm, "", of<&Registration::shift_error>(), "standard error, of what the overlap determines", 0, "error of shift"},
     {"turn_error_mrad", kMrad, "", of<&Registration::turn_error>(), "", 0, "error of turn"},
     {"open", kOne, "", of<&Registration::open>(), "directions of six that the overlap does not determine", 0, "left open"}};
+constexpr Column<ErrorPart> kErrorParts[] = {
+    {"source", kOne, "", of<&ErrorPart::source>(), "lateral placement, tilt, height, registration, smoothing, filled holes or scanner", 0, "source"},
+    {"lateral_mm", kMm, "", of<&ErrorPart::lateral>(), "standard deviation of where the section lies across", 0, "across"},
+    {"vertical_mm", kMm, "", of<&ErrorPart::vertical>(), "along z, of a wheel of its radius, with it", 0, "down"},
+    {"roll_mrad", kMrad, "", of<&ErrorPart::roll>(), "y towards z, with it", 0, "roll"},
+    {"heights_um", kUm, "", of<&ErrorPart::heights>(), "standard deviation of heights, the largest", 0, "heights, at most"},
+    {"length_mm", kMm, "", of<&ErrorPart::length>(), "places so far apart have errors of their own; 0: alike everywhere", 0, "alike over"}};
 
 constexpr Column<ErrorSize> kErrors[] = {
     {"rms_um", kUm, "", of<&ErrorSize::rms>()},
@@ -170,6 +178,7 @@ template <> std::span<const Column<TrackPlace>> columns() { return kTrackPlaces;
 template <> std::span<const Column<NoiseClass>> columns() { return kNoiseClasses; }
 template <> std::span<const Column<Registration>> columns() { return kRegistrations; }
 template <> std::span<const Column<ErrorSize>> columns() { return kErrors; }
+template <> std::span<const Column<ErrorPart>> columns() { return kErrorParts; }
 // clang-format on
 
 }  // namespace treadmark

@@ -60,6 +60,10 @@ struct ImportSettings {
     double decimate_um = 0.0;
     double written_um = 10.0;
   } fit;
+  struct Errors {
+    double lateral_mm = 0.0;
+    double scanner_um = 0.0, scanner_mm = 0.0;
+  } errors;
   struct Damage {
     double threshold_mm = 0.0;
   } damage;

@@ -187,6 +187,8 @@ void add_fit(Page& page, const ImportReport& report) {
     page.row("points held out",
              fmt::format("{} of {} points", length_text(report.held_out_rms), grouped(report.held_out_points)));
   page.row("error of the surface", surface_error_text(report));
+  for (const ImportReport::ErrorPart& part : report.error_parts)
+    page.row(&part == &report.error_parts.front() ? "uncertain by" : "", error_text(part));
   add_holes(page, report);
 }
 

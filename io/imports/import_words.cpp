@@ -48,6 +48,17 @@ std::string surface_error_text(const ImportReport& report, std::string_view micr
   return "below " + length_text(std::sqrt(squared + told), micro);
 }
 
+std::string error_text(const ImportReport::ErrorPart& part) {
+  std::string out = part.source;
+  const auto add = [&](const std::string& more) { out += (out == part.source ? ": " : ", ") + more; };
+  if (part.lateral != 0.0) add(length_text(std::abs(part.lateral)) + " across");
+  if (part.vertical != 0.0) add(length_text(std::abs(part.vertical)) + " down");
+  if (part.roll != 0.0) add(fmt::format("{:.2g} mrad", 1e3 * std::abs(part.roll)));
+  if (part.heights != 0.0)
+    add(fmt::format("heights up to {}, alike over {}", length_text(part.heights), length_text(part.length)));
+  return out;
+}
+
 std::string length_text(double metres, std::string_view micro) {
   if (!std::isfinite(metres)) return "-";
   const double size = std::abs(metres);

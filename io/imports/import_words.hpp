@@ -27,6 +27,9 @@ std::string length_text(double metres, std::string_view micro = "u");
 /// tell, "6 um", or "below 2.6 um" where it does not stand out of the noise; "not known" without such points.
 std::string surface_error_text(const ImportReport& report, std::string_view micro = "u");
 
+/// What one source leaves uncertain: "lateral placement: 0.12 mm across, 0.3 mrad".
+std::string error_text(const ImportReport::ErrorPart& part);
+
 /// "mm" and "um" with what a length in metres is multiplied by; um for lengths below 0.2 mm.
 struct PictureUnit {
   std::string name;

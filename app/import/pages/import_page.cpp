@@ -205,6 +205,13 @@ Section fit_section(const io::ImportReport& report, OptionalFiles& files) {
         Paragraph{fmt::format("The surface is known to {} (rms), at most {} were found. Results that use it have "
                               "standard deviations from this.",
                               in_um(report.errors->rms), in_um(report.errors->largest))});
+  if (!report.error_parts.empty())
+    section.blocks.emplace_back(report::table_of(
+        "error-sources", "What else leaves the surface uncertain: standard deviations, each source by itself.",
+        report.error_parts, 3));
+  append(section.blocks,
+         map_figure(report.error_map, report.body,
+                    {"error-map", "Uncertainty of the surface", "standard deviation of heights", "µm", 1e6}));
   append(section.blocks,
          map_figure(report.noise_map, report.body, {"noise-map", "Noise", "standard deviation", "µm", 1e6}));
   if (!report.noise_classes.empty())

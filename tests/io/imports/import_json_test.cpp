@@ -120,6 +120,7 @@ TEST(ImportReportSchema, IsMadeOfItsRows) {
   expect_rows<Report::Sections>(fit["kept_sections"]);
   expect_rows<Report::Level>(fit["levels"]["items"]);
   expect_rows<ErrorSize>(fit["surface_errors"]);
+  expect_rows<Report::ErrorPart>(fit["error_sources"]["items"]);
   for (const char* compared : {"placed", "shape"}) expect_rows<Report::Distances>(members("truth")[compared]);
   expect_rows<Report::Output>(all["outputs"]["items"]);
   for (const json* part : {&holes, &damage})

@@ -185,6 +185,8 @@ io::ImportReport sample_report() {
   report.held_out_rms = 36.5e-6;
   report.held_out_error = 6e-6;
   report.errors = ErrorSize{3e-6, 17e-6};
+  report.error_parts = {{"lateral placement", 0.12e-3, -4e-6, 0.3e-3, 0.0, 0.0},
+                        {"smoothing", 0.0, 0.0, 0.0, 2.5e-6, 4e-3}};
   report.damage = {{1.2 / kRadius, 0.0042, 0.08, 0.044, 0.85e-3, 1.17e-6, 0.06},
                    {2.3 / kRadius, -0.0097, 0.012, 0.012, 0.4e-3, 2.3e-8, 0.075},
                    {2.0 * kPi - 0.004 / kRadius, 0.0229, 0.02, 0.02, -0.3e-3, -4.7e-8, 0.04}};
