@@ -3,6 +3,7 @@
 #include "treadmark/app/cases/case_derivatives.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -20,8 +21,6 @@
 #include "treadmark/app/cases/run_parts.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/cases/wheelrail_result.hpp"
-#include "treadmark/backends/displacement/displaced_surface.hpp"
-#include "treadmark/backends/displacement/section_offsets.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
@@ -145,10 +144,7 @@ class CaseTangents {
     if (added_ != nullptr) {
       auto& surface = added_->facing == Facing::up ? out.geometry.rail : out.geometry.wheel;
       std::shared_ptr<const Surface>& known = with_added_[surface];
-      if (known == nullptr) {
-        const wheelrail::Geometry made = with_heights(out.given, *added_, 1.0);
-        known = added_->facing == Facing::up ? made.rail : made.wheel;
-      }
+      if (known == nullptr) known = with_heights(surface, *added_, 1.0);
       surface = known;
     }
     out.problem = to_problem(out.input, out.geometry.round_wheel);
@@ -224,17 +220,16 @@ class CaseTangents {
   }
 
   void add(const SectionHeights& heights, io::CaseDerivatives& out) {
-    // near places little height is much curvature, as of the points of a profile
-    constexpr double kCurvature = 1e-3, kLeast = 2e-11, kMost = 5e-8;  // [1/m], [m], [m]
-    const auto [low, high] = ranges::minmax_element(heights.values);
-    const double step =
-        std::clamp(kCurvature * heights.step * heights.step, kLeast, kMost) / std::max(std::abs(*low), std::abs(*high));
+    const double step = factor_step(heights);
     const auto beside = [&](double factor) {
-      SectionHeights all = heights;
-      for (std::size_t k = 0; k < all.values.size(); ++k)
-        all.values[k] = factor * all.values[k] + (added_ != nullptr ? added_->values[k] : 0.0);
-      return std::make_shared<const Prepared>(
-          Prepared{base_->input, base_->problem, with_heights(base_->given, all, 1.0), base_->given});
+      Prepared moved = *base_;
+      const bool rail = heights.facing == Facing::up;
+      auto& surface = rail ? moved.geometry.rail : moved.geometry.wheel;
+      surface = added_ != nullptr && added_->facing == heights.facing
+                    ? with_heights(rail ? base_->given.rail : base_->given.wheel, std::array{*added_, heights},
+                                   std::array{1.0, factor})
+                    : with_heights(surface, heights, factor);
+      return std::make_shared<const Prepared>(std::move(moved));
     };
     out.parameters.push_back({"", 0.0, true, {}});
     const Sides sides{beside(step), beside(-step), step};
@@ -346,18 +341,6 @@ io::CaseDerivatives derivatives_of(const io::Case& c, SurfaceStore& store, const
 }
 
 }  // namespace
-
-wheelrail::Geometry with_heights(wheelrail::Geometry geometry, const SectionHeights& heights, double factor) {
-  const bool rail = heights.facing == Facing::up;
-  std::shared_ptr<const Surface>& surface = rail ? geometry.rail : geometry.wheel;
-  std::vector<double> values = heights.values;
-  for (double& value : values) value *= factor;
-  const std::string backend(surface->backend());
-  surface = displacement::make_displaced_surface(
-      surface, displacement::section_offsets(heights.first, heights.step, std::move(values)),
-      rail ? Body::rail : Body::wheel, backend);
-  return geometry;
-}
 
 io::CaseDerivatives derivatives_by(const io::Case& c, SurfaceStore& store, const SampledRegions& regions,
                                    const std::vector<std::string>& keys, std::span<const SectionHeights> heights,

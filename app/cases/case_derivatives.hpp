@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "treadmark/app/cases/section_heights.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/core/progress.hpp"
@@ -27,15 +28,6 @@ namespace treadmark::app {
 /// and a key that no case has.
 void add_derivatives(io::RunResult& result, const io::CaseFile& file, SurfaceStore& store,
                      const std::vector<std::string>& keys, const Progress& progress = {});
-
-/// Heights that a surface may have beside its own, along all of it: a spline through values at places across it.
-struct SectionHeights {
-  Facing facing = Facing::up;      ///< of which surface
-  double first = 0.0, step = 0.0;  ///< y of the places [m]
-  std::vector<double> values;      ///< z of a rail, radius of a wheel [m]
-};
-/// The surfaces with these heights, times a factor, added to one of them.
-wheelrail::Geometry with_heights(wheelrail::Geometry geometry, const SectionHeights& heights, double factor);
 
 /// Derivatives of one case by keys, none: no usual ones, and after them by the factors of heights. Where contact does
 /// not follow from a key they are 0. added: heights that its surface has already, of the same body and places; null:

@@ -24,8 +24,6 @@ const Profile* noisy_profile(const NaturalSurface& natural) {
 
 namespace {
 
-constexpr std::size_t kNearestDraws = 16;  // as many as of profiles
-
 /// Where on a body a patch lies along it: x of a rail [m], angle of a wheel [rad].
 double along(const io::PatchResult& patch, const Pose& X_TB, Body body) {
   const Vec3 at = X_TB.inverse().apply({patch.x_tr, patch.y_tr, patch.z_tr});
@@ -71,13 +69,15 @@ std::string NoiseOfResults::Known::in_words(const std::string& name) const {
                      kMicro * size.largest);
 }
 
-std::vector<std::size_t> NoiseOfResults::Known::near_draws(Body body, const io::CaseResult& result) const {
-  if (!surface) return {};
+double NoiseOfResults::Known::station(Body body, const io::CaseResult& result) {
   const io::PatchResult& largest = *ranges::max_element(result.patches, {}, &io::PatchResult::fn);
   const bool wheel = body == Body::wheel;
-  return nearest_draws(*surface,
-                       result.bodies ? along(largest, wheel ? result.bodies->X_TA : result.bodies->X_TS, body) : 0.0,
-                       draws_count(), wheel ? 2.0 * kPi : 0.0);
+  return result.bodies ? along(largest, wheel ? result.bodies->X_TA : result.bodies->X_TS, body) : 0.0;
+}
+
+std::vector<std::size_t> NoiseOfResults::Known::near_draws(Body body, const io::CaseResult& result) const {
+  if (!surface) return {};
+  return nearest_draws(*surface, station(body, result), draws_count(), body == Body::wheel ? 2.0 * kPi : 0.0);
 }
 
 std::vector<std::vector<double>> NoiseOfResults::heights(Body body, const io::CaseResult& result,
@@ -86,21 +86,17 @@ std::vector<std::vector<double>> NoiseOfResults::heights(Body body, const io::Ca
   const std::vector<std::size_t> near = known.near_draws(body, result);
   std::vector<std::vector<double>> out(known.draws_count());
   if (out.empty()) return out;
-  for (const double place : places) {
-    // where the section is flattest, of the pieces over a place; across it is more along z the steeper it is
-    const bool first = std::abs(place - known.y.front()) < std::abs(place - known.y.back());
-    double arc = first ? known.s.front() : known.s.back(), flattest = 0.0;
-    for (std::size_t i = 0; i + 1 < known.y.size(); ++i) {
-      const double y = known.y[i], dy = known.y[i + 1] - y, share = dy != 0.0 ? (place - y) / dy : -1.0;
-      const double cosine = std::abs(dy) / std::hypot(dy, known.z[i + 1] - known.z[i]);
-      if (share < 0.0 || share > 1.0 || cosine <= flattest) continue;
-      flattest = cosine, arc = known.s[i] + share * (known.s[i + 1] - known.s[i]);
-    }
-    constexpr double kSteepest = 0.2;  // beyond it heights tell nothing
+  for (const SectionPlace& place : places_of_section(known.s, known.y, known.z, places))
     for (std::size_t draw = 0; draw < out.size(); ++draw)
-      out[draw].push_back(known.error(draw, near, arc) / std::max(flattest, kSteepest));
-  }
+      out[draw].push_back(known.error(draw, near, place.arc) / place.cosine);
   return out;
+}
+
+std::vector<SourceOfErrors> NoiseOfResults::sources(Body body, const io::CaseResult& result,
+                                                    const Surface& surface) const {
+  const Known& known = body == Body::wheel ? wheel_ : rail_;
+  if (!known.surface) return {};
+  return sources_of_errors(*known.surface, body, Known::station(body, result), surface);
 }
 
 void NoiseOfResults::add_errors(const io::WheelRailCase& input, const io::CaseResult& result,

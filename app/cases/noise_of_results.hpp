@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "treadmark/analysis/measured/smoothing.hpp"
+#include "treadmark/app/cases/section_heights.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/results/result_model.hpp"
@@ -35,6 +36,9 @@ class NoiseOfResults {
   /// of a rail, radius of a wheel. Each as probable as the others; none where nothing is known of it. The result has
   /// patches.
   std::vector<std::vector<double>> heights(Body body, const io::CaseResult& result, std::span<const double> y) const;
+  /// The others, where the body was imported: by placement, passes, smoothing and so on, near the contact. surface: as
+  /// it is used. The result has patches.
+  std::vector<SourceOfErrors> sources(Body body, const io::CaseResult& result, const Surface& surface) const;
 
  private:
   struct Known {
@@ -47,6 +51,8 @@ class NoiseOfResults {
     /// Across the surface at an arc length [m]; of a surface the draw is one of those near the contact.
     double error(std::size_t draw, std::span<const std::size_t> near, double arc) const;
     std::string in_words(const std::string& name) const;
+    /// Along the body, of the most loaded patch of a result.
+    static double station(Body body, const io::CaseResult& result);
     /// Numbers of the draws that count at the most loaded patch of a result; empty of a profile.
     std::vector<std::size_t> near_draws(Body body, const io::CaseResult& result) const;
   };

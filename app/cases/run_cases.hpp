@@ -22,6 +22,9 @@ io::RunResult run_cases(const io::CaseFile& file, const Progress& progress = {})
 /// The same with surfaces that were read and built before; the store learns the new ones.
 io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Progress& progress = {});
 
+/// The same cases without error bars, for results of which nobody sees them.
+io::CaseFile without_error_bars(io::CaseFile file);
+
 /// A wheel-rail case with its surfaces.
 struct CaseGeometry {
   const io::Case* given;  ///< of the file

@@ -24,8 +24,8 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/random.hpp"
-#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/model/shape/body_name.hpp"
@@ -33,7 +33,8 @@
 namespace treadmark::app {
 namespace {
 
-constexpr std::size_t kChecked = 8, kSamples = 200;  ///< solutions
+constexpr std::size_t kChecked = 8, kSamples = 200, kUnaskedSamples = 48;  ///< solutions
+constexpr std::size_t kMostUnasked = 2;                                    ///< cases
 constexpr double kBent = 0.3;  ///< by how much of a deviation derivatives may miss solutions, root mean square
 
 using Numbers = std::vector<double>;
@@ -46,26 +47,31 @@ struct UncertainSource {
   std::size_t factors() const { return key.empty() ? heights.size() : 1; }
 };
 
-/// y of places over all of a surface.
-Numbers places_across(const Surface& surface, double step) {
-  constexpr double kFar = 0.2;  // [m], of bounds that may be infinite
-  constexpr std::size_t kMost = 2000;
-  const Box3 box = surface.bounds();
-  const double from = std::max(box.min.y(), -kFar), to = std::min(box.max.y(), kFar);
-  const auto count = to_whole<std::size_t>(std::ceil(std::max(0.0, to - from) / step)) + 2;
-  if (count > kMost)
-    throw Error(ErrorKind::configuration, fmt::format("errors of heights {:g} mm apart are too many", kMilli * step),
-                {}, "give a greater case.uncertainty.length_mm");
-  Numbers out;
-  for (std::size_t k = 0; k < count; ++k) out.push_back(from + static_cast<double>(k) * step);
+using NamedNumbers = std::vector<std::pair<std::string, double>>;
+
+/// Numbers that may have derivatives, and after them elements in contact, as many of the size that another result has.
+NamedNumbers numbers_of(const io::CaseResult& result, const io::CaseResult& other) {
+  NamedNumbers out = smooth_numbers(result);
+  for (std::size_t k = 0; k < std::min(result.patches.size(), other.patches.size()); ++k) {
+    const io::PatchResult &patch = result.patches[k], &like = other.patches[k];
+    out.emplace_back(fmt::format("patch_{}.elements.ncon", k + 1),
+                     patch.ncon * patch.fields.grid.cell_area() / like.fields.grid.cell_area());
+  }
   return out;
 }
 
 /// Solutions of a case with errors in what is given.
 class CaseWithErrors {
  public:
-  CaseWithErrors(const io::Case& c, const io::CaseResult& solved, SurfaceStore& store, const SampledRegions& regions)
-      : case_(c), solved_(solved), store_(store), regions_(regions), base_(smooth_numbers(solved)) {
+  CaseWithErrors(const io::Case& c, const io::CaseResult& solved, SurfaceStore& store, const SampledRegions& regions,
+                 std::size_t samples)
+      : case_(c),
+        solved_(solved),
+        store_(store),
+        regions_(regions),
+        samples_(samples),
+        base_(numbers_of(solved, solved)),
+        smooth_(base_.size() - solved.patches.size()) {
     for (const auto& [name, value] : base_) left_open_.push_back(left_open(name, value));
     auto& input = std::get<io::WheelRailCase>(case_.content);
     const std::vector<io::UncertainInput> given = std::exchange(input.uncertainty, {});
@@ -74,6 +80,9 @@ class CaseWithErrors {
     geometry_ = geometry_of(input, store_, regions_);
     for (const io::UncertainInput& one : given) add(one);
     add_noise(input);
+    if (sources_.empty())
+      throw Error(ErrorKind::configuration, "nothing says how well the case or its surfaces are known", {},
+                  "give case.uncertainty, or leave case.error_bars out");
     for (const UncertainSource& source : sources_) factors_ += source.factors();
   }
 
@@ -82,13 +91,13 @@ class CaseWithErrors {
     by_derivatives();
     const std::size_t missed = check();
     if (missed > 0) {
-      while (drawn_.size() < kSamples) {
-        solve_more(kSamples);
+      while (drawn_.size() < samples_) {
+        solve_more(samples_);
         drawn(drawn_.size());
       }
-      from_sample();
-      out_.samples = static_cast<int>(kSamples);
+      out_.samples = static_cast<int>(samples_);
     }
+    from_sample();
     for (std::size_t n = 0; n < base_.size(); ++n)
       if (out_.numbers[n].sigma <= left_open_[n]) out_.numbers[n].sigma = 0.0;
     return std::move(out_);
@@ -129,7 +138,8 @@ class CaseWithErrors {
     sources_.push_back(std::move(source));
   }
 
-  /// What smoothing and import have left uncertain: draws of which the variance is the mean of squares.
+  /// What smoothing and import have left uncertain: draws of which the variance is the mean of squares, and what the
+  /// import tells besides.
   void add_noise(const io::WheelRailCase& input) {
     constexpr double kStep = 0.25e-3;  // [m], of the knots of such errors
     const auto natural = [&](const io::SurfaceSource& source, Body body) {
@@ -142,19 +152,18 @@ class CaseWithErrors {
       const Numbers places = places_across(surface_of(facing), kStep);
       const std::vector<Numbers> draws = noise.heights(body, solved_, places);
       if (draws.empty()) continue;
-      UncertainSource source{fmt::format("noise of the {}", body_name(body)), {}, 0.0, {}};
-      double squares = 0.0;
+      SourceOfErrors scatter{fmt::format("noise of the {}", body_name(body)), {}};
       for (const Numbers& draw : draws) {
-        SectionHeights one{facing, places.front(), kStep, draw};
-        for (double& height : one.values) {
-          height /= std::sqrt(static_cast<double>(draws.size()));
-          squares += height * height;
-        }
-        source.heights.push_back(std::move(one));
+        SectionHeights& one = scatter.errors.emplace_back(SectionHeights{facing, places.front(), kStep, draw});
+        for (double& height : one.values) height /= std::sqrt(static_cast<double>(draws.size()));
       }
-      source.sigma = kMilli * std::sqrt(squares / static_cast<double>(places.size()));
-      out_.sources.push_back({source.name, source.sigma});
-      sources_.push_back(std::move(source));
+      std::vector<SourceOfErrors> all = noise.sources(body, solved_, surface_of(facing));
+      all.insert(all.begin(), std::move(scatter));
+      for (SourceOfErrors& one : all) {
+        const double sigma = kMilli * extent_of(one, places);
+        out_.sources.push_back({one.name, sigma});
+        sources_.push_back({one.name, {}, sigma, std::move(one.errors)});
+      }
     }
   }
 
@@ -222,6 +231,10 @@ class CaseWithErrors {
       }
       const double miss = std::sqrt(squares / static_cast<double>(kChecked));
       io::CaseUncertainty::Number& number = out_.numbers[n];
+      if (n >= smooth_) {  // what has been drawn tells of counts
+        number.sampled = true;
+        continue;
+      }
       number.sampled = all || !(miss <= std::max(kBent * number.sigma, left_open_[n]));
       if (!number.sampled) continue;
       if (missed++ == 0) first = number.name;
@@ -240,7 +253,7 @@ class CaseWithErrors {
     const std::size_t first = drawn_.size(), last = std::min(count, first + kAtOnce);
     for (std::size_t i = first; i < last; ++i) {
       Drawn& one = drawn_.emplace_back();
-      for (std::size_t k = 0; k < factors_; ++k) one.factors.push_back(normal());
+      for (std::size_t k = 0; k < factors_; ++k) one.factors.push_back(normal(random_));
       try {
         io::Case c = case_with(one.factors);
         geometries.emplace_back(geometry_with(c, one.factors));
@@ -255,7 +268,7 @@ class CaseWithErrors {
       if (result.status != Status::ok) continue;
       Drawn& one = drawn_[first + static_cast<std::size_t>(result.number)];
       one.same_patches = result.patches.size() == solved_.patches.size();
-      const auto numbers = smooth_numbers(result);
+      const NamedNumbers numbers = numbers_of(result, solved_);
       one.numbers.assign(base_.size(), kNaN);
       for (std::size_t n = 0; n < base_.size(); ++n)
         for (const auto& [name, value] : numbers)
@@ -281,22 +294,12 @@ class CaseWithErrors {
     std::size_t factor = 0;
     for (const UncertainSource& source : sources_) {
       if (source.key.empty()) {
-        SectionHeights sum = source.heights.front();
-        std::fill(sum.values.begin(), sum.values.end(), 0.0);
-        for (std::size_t k = 0; k < source.heights.size(); ++k)
-          for (std::size_t i = 0; i < sum.values.size(); ++i)
-            sum.values[i] += factors[factor + k] * source.heights[k].values[i];
-        geometry = with_heights(std::move(geometry), sum, 1.0);
+        auto& surface = source.heights.front().facing == Facing::up ? geometry.rail : geometry.wheel;
+        surface = with_heights(surface, source.heights, std::span(factors).subspan(factor, source.factors()));
       }
       factor += source.factors();
     }
     return geometry;
-  }
-
-  /// Of the standard normal distribution (Box and Muller 1958).
-  double normal() {
-    const double size = std::sqrt(-2.0 * std::log(1.0 - random_.uniform()));
-    return size * std::cos(2.0 * kPi * random_.uniform());
   }
 
   void from_sample() {
@@ -308,10 +311,10 @@ class CaseWithErrors {
       for (const Drawn& one : drawn_)
         if (!one.numbers.empty() && std::isfinite(one.numbers[n])) known.push_back(&one);
       number.sigma = kNaN, number.shares.assign(sources_.size(), kNaN);
-      if (2 * known.size() < kSamples) continue;  // too few to stand for all
+      if (2 * known.size() < drawn_.size()) continue;  // too few to stand for all
       const auto value = [n](const Drawn& one) { return one.numbers[n]; };
       number.sigma = std::sqrt(covariance(known, value, value));
-      if (!(number.sigma > left_open_[n])) continue;
+      if (!(number.sigma > left_open_[n]) || drawn_.size() < samples_) continue;
       std::size_t factor = 0;
       for (std::size_t k = 0; k < sources_.size(); factor += sources_[k++].factors()) {
         if (sources_[k].factors() > 1 && !std::isfinite(slopes_[n][factor])) continue;
@@ -340,7 +343,9 @@ class CaseWithErrors {
   const io::CaseResult& solved_;
   SurfaceStore& store_;
   const SampledRegions& regions_;
-  const std::vector<std::pair<std::string, double>> base_;
+  std::size_t samples_;
+  const NamedNumbers base_;
+  std::size_t smooth_;  ///< of these, that may have derivatives
   Numbers left_open_;
   wheelrail::Geometry geometry_;
   std::vector<UncertainSource> sources_;
@@ -353,7 +358,8 @@ class CaseWithErrors {
 };
 
 io::CaseUncertainty uncertainty_of(const io::Case& c, const io::CaseResult& solved, SurfaceStore& store,
-                                   const SampledRegions& regions, const std::function<void(std::size_t)>& drawn) {
+                                   const SampledRegions& regions, std::size_t samples,
+                                   const std::function<void(std::size_t)>& drawn) {
   io::CaseUncertainty none;
   if (solved.status != Status::ok || solved.patches.empty()) {
     none.message = "the case has no solution that is ok";
@@ -364,11 +370,40 @@ io::CaseUncertainty uncertainty_of(const io::Case& c, const io::CaseResult& solv
     return none;
   }
   try {
-    return CaseWithErrors(c, solved, store, regions).found(drawn);
+    return CaseWithErrors(c, solved, store, regions, samples).found(drawn);
   } catch (const Error& e) {
     none.message = e.what();
     return none;
   }
+}
+
+/// Whether the import of a surface of the case told more than scatter of it.
+bool has_imported_errors(const io::WheelRailCase& input, SurfaceStore& store) {
+  const auto has = [&](const io::SurfaceSource& source, Body body) {
+    const auto errors = store.natural(source, body, profile_radius(input, body))->spec.errors;
+    return errors != nullptr && (!errors->motions.empty() || !errors->fields.empty());
+  };
+  return has(input.rail, Body::rail) || has(input.wheel, Body::wheel);
+}
+
+/// Of which of the cases, in the order of their results, samples of how many solutions may be drawn; 0: no error bars.
+std::vector<std::size_t> samples_of(const io::RunResult& result, const io::CaseFile& file, SurfaceStore& store) {
+  std::vector<std::size_t> out;
+  std::size_t unasked = 0;
+  auto c = file.cases.begin();
+  for (const io::CaseResult& solved : result.cases) {
+    while (c->number != solved.number) ++c;
+    out.push_back(0);
+    const auto* input = std::get_if<io::WheelRailCase>(&c->content);
+    if (input == nullptr || input->error_bars == io::ErrorBars::never) continue;
+    if (input->error_bars == io::ErrorBars::always || !input->uncertainty.empty())
+      out.back() = kSamples;
+    else if (unasked <= kMostUnasked && solved.status == Status::ok && !solved.patches.empty() && starts_anew(*c) &&
+             has_imported_errors(*input, store))
+      out.back() = kUnaskedSamples, ++unasked;
+  }
+  if (unasked > kMostUnasked) ranges::replace(out, kUnaskedSamples, std::size_t{0});
+  return out;
 }
 
 }  // namespace
@@ -379,17 +414,18 @@ void add_uncertainty(io::RunResult& result, const io::CaseFile& file, SurfaceSto
   std::size_t finished = 0;
   try {
     const CancellationScope scope(progress.stop);
-    for (io::CaseResult& solved : result.cases) {
+    const std::vector<std::size_t> samples = samples_of(result, file, store);
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      io::CaseResult& solved = result.cases[k];
       while (c->number != solved.number) ++c;
-      const auto* input = std::get_if<io::WheelRailCase>(&c->content);
-      if (input == nullptr || input->uncertainty.empty()) continue;
+      if (samples[k] == 0) continue;
       check_cancelled();
       const auto tell = [&](const std::string& more) {
         if (progress.report)
           progress.report(finished, result.cases.size(), fmt::format("uncertainty of case {}{}", solved.number, more));
       };
-      solved.uncertainty = uncertainty_of(*c, solved, store, regions, [&](std::size_t drawn) {
-        tell(fmt::format(", {} of {} solutions", drawn, kSamples));
+      solved.uncertainty = uncertainty_of(*c, solved, store, regions, samples[k], [&](std::size_t drawn) {
+        tell(fmt::format(", {} of {} solutions", drawn, samples[k]));
       });
       ++finished;
       tell("");

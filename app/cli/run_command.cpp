@@ -89,7 +89,8 @@ bool is_list(const io::ListedCases& given, const RunOptions& options) {
       options.fields || options.verbose || options.bodies || options.sensitivities || !options.report_file.empty();
   const auto with_errors = [](const io::Case& c) {
     const auto* input = std::get_if<io::WheelRailCase>(&c.content);
-    return input != nullptr && !input->uncertainty.empty();
+    return input != nullptr && input->error_bars != io::ErrorBars::never &&
+           (!input->uncertainty.empty() || input->error_bars == io::ErrorBars::always);
   };
   return !all_shown && ranges::none_of(given.file.cases, with_errors) &&
          (given.rows != nullptr || given.file.cases.size() > app::kLongList);
@@ -180,7 +181,7 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     }
     if (!options.numbers.empty())
       throw Error(ErrorKind::configuration, "--numbers chooses columns of lists, this has all of them", {name},
-                  fmt::format("leave it out: a list has cases_file, or more than {} cases, and no case.uncertainty, "
+                  fmt::format("leave it out: a list has cases_file, or more than {} cases, and no error bars, "
                               "--fields, --report, --vtk, --sensitivities or --verbose",
                               app::kLongList));
     const OutputClaim claim(app::result_files(folders.empty() ? "" : folders[k], false));

@@ -320,7 +320,10 @@ wheelrail::Geometry DesignCases::given_geometry(std::size_t position, const std:
 
 wheelrail::Geometry DesignCases::geometry(std::size_t position, const std::vector<double>& design) {
   wheelrail::Geometry out = given_geometry(position, design);
-  if (const std::optional<SectionHeights> added = heights_of(design)) out = with_heights(std::move(out), *added, 1.0);
+  if (const std::optional<SectionHeights> added = heights_of(design)) {
+    auto& surface = added->facing == Facing::up ? out.rail : out.wheel;
+    surface = with_heights(std::move(surface), *added, 1.0);
+  }
   return out;
 }
 

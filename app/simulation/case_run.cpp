@@ -63,7 +63,7 @@ RunNames case_run_names() {
 
 io::SimulationResult run_case_file(const io::CaseFile& file, SurfaceStore& store, const SimulationOptions& options,
                                    const Progress& progress) {
-  io::RunResult run = run_cases(file, store, progress);
+  io::RunResult run = run_cases(without_error_bars(file), store, progress);
   io::SimulationResult result = result_head(file, options);
   if (!run.complete) result.status = "interrupted";
   const std::vector<CaseColumn> columns = case_columns();

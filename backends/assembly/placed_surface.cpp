@@ -78,7 +78,7 @@ class MovedSurface final : public Placed {
  public:
   using Placed::Placed;
   Facing facing() const override { return surface().facing(); }
-  /// Shifted across and upright, a rail stays prismatic; a wheel would no longer turn about its axle.
+  /// Shifted across and upright, or rolled, a rail stays prismatic; a wheel would no longer turn about its axle.
   bool constant_profile() const override { return keeps_profile() && surface().constant_profile(); }
   bool constant_between(double u_min, double u_max) const override {
     const double before = facing() == Facing::up ? X_SB().origin.x() : 0.0;
@@ -87,7 +87,8 @@ class MovedSurface final : public Placed {
 
  private:
   bool keeps_profile() const {
-    const bool along = X_SB().rotation == Mat3::Identity();
+    const Mat3& R = X_SB().rotation;
+    const bool along = R == Mat3::Identity() || (facing() == Facing::up && R.col(0) == Vec3::UnitX());
     const bool centred = facing() == Facing::up || (X_SB().origin.x() == 0.0 && X_SB().origin.z() == 0.0);
     return along && centred;
   }

@@ -148,6 +148,10 @@ struct UncertainInput {
   double length = 0.0;  ///< of a shape: places so far apart have errors of their own, with a spline between them [m]
 };
 
+/// Which cases get error bars: those that say how well they are known and, where there are few, those with surfaces of
+/// which their import does; these whatever there are; none.
+enum class ErrorBars { automatic, always, never };
+
 /// Friction that differs from place to place of a wheel on a rail; between the positions laws are interpolated.
 struct FrictionVariation {
   /// What friction depends on.
@@ -185,8 +189,9 @@ struct WheelRailCase {
   InfluenceInput influence;
   std::optional<Thermal> thermal;
   std::optional<Damping> damping;
-  bool sensitivities = false;                        ///< derivatives of forces are wanted
-  std::vector<UncertainInput> uncertainty;           ///< independent of each other
+  bool sensitivities = false;               ///< derivatives of forces are wanted
+  std::vector<UncertainInput> uncertainty;  ///< independent of each other
+  ErrorBars error_bars = ErrorBars::automatic;
   SubsurfaceInput subsurface;                        ///< element numbers that a patch does not have are passed over
   Conventions conventions = Conventions::treadmark;  ///< of spin moments and steps in time
 };

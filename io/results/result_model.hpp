@@ -216,8 +216,8 @@ struct CaseDerivatives {
 struct CaseUncertainty {
   /// Of what is given; independent of each other.
   struct Source {
-    std::string name;    ///< key of the case file, "rail.shape", or "noise of the rail"
-    double sigma = 0.0;  ///< standard deviation, in the unit of the key; of heights [mm]
+    std::string name;    ///< key of the case file, "rail.shape", "noise of the rail", "lateral placement of the wheel"
+    double sigma = 0.0;  ///< standard deviation, in the unit of the key; of surfaces what their points move by [mm]
   };
   /// Of what came out.
   struct Number {
@@ -268,7 +268,7 @@ struct CaseResult {
   std::vector<std::pair<double, double>> force_iterations;                      ///< (z_ws [m], F_z [N])
   std::vector<PatchResult> patches;
   std::optional<CaseDerivatives> derivatives;  ///< where they were asked for; in JSON and tables, not in HDF5
-  std::optional<CaseUncertainty> uncertainty;  ///< where the case says how well it is known; in JSON and tables
+  std::optional<CaseUncertainty> uncertainty;  ///< where the case or its surfaces say how well they are known
 };
 
 /// How a case ended, in result files and tables: "doubtful" where it is ok but a remark is grave, else the word of its

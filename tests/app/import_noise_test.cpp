@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -235,12 +236,13 @@ class ImportedNoise : public ::testing::Test {
   fs::path path(const std::string& name) const { return input.folder() / name; }
 
   io::ImportReport import(const std::string& shape, Body body, std::size_t points, double noise,
-                          const std::string& output, const io::ImportSettings& settings = {}) const {
+                          const std::string& output, const io::ImportSettings& settings = {},
+                          std::uint64_t seed = 7) const {
     ScanRequest scan;
     scan.surface.body = body;
     scan.scanner.points = points;
     scan.scanner.noise = noise;
-    scan.scanner.seed = 7;
+    scan.scanner.seed = seed;
     if (body == Body::rail) scan.range_x = std::pair{-0.2, 0.2};
     scan_surface(path(shape), path("cloud.ply"), scan);
     ImportRequest request;
@@ -480,6 +482,41 @@ TEST_F(ImportedNoise, OfFitsCoversWhatResultsAreOff) {
            {"squat", Body::rail, kNewRail + "\n[[rail.squats]]\nlength_mm = 40\nwidth_mm = 30\ndepth_mm = 0.4",
             "[-3, 0, 3]", 150000}},
           25);
+}
+
+/// Virtual scans of a new rail and of one with a squat: error bars come unasked, name their sources, and hold the
+/// truth; scripts/error-bars.py asks a thousand scans.
+TEST_F(ImportedNoise, ErrorBarsHoldTheTruth) {
+  constexpr int kScans = 5;
+  const std::string squat = kNewRail + "\n[[rail.squats]]\nlength_mm = 40\nwidth_mm = 30\ndepth_mm = 0.4";
+  int known = 0, within_two = 0, named = 0;
+  double normalised = 0.0;
+  for (const auto& [keys, y_mm] : {std::pair{kNewRail, "[3]"}, std::pair{squat, "[0]"}}) {
+    const auto text = [place = std::string(y_mm)](const std::string& rail) {
+      return case_text(kNewWheel, rail, place, "dx_mm = 1\nds_mm = 1\n");
+    };
+    input.write("truth.toml", text(keys));
+    const io::CaseResult truth = run_text(text(keys), input.folder()).cases.at(0);
+    for (int seed = 1; seed <= kScans; ++seed) {
+      import("truth.toml", Body::rail, 80000, 30e-6, "found.slcs", {}, static_cast<std::uint64_t>(seed));
+      const io::CaseResult found = run_text(text("shape.file = \"found.slcs\""), input.folder()).cases.at(0);
+      ASSERT_TRUE(found.uncertainty) << "the surface knows its errors";
+      ASSERT_EQ(found.uncertainty->message, "");
+      for (const io::CaseUncertainty::Source& source : found.uncertainty->sources)
+        named += source.name == "lateral placement of the rail" ? 1 : 0;
+      for (const io::CaseUncertainty::Number& number : found.uncertainty->numbers) {
+        if (number.name != "patch_1.pmax_MPa" || !(number.sigma > 0.0)) continue;
+        const double off = std::fabs(number.value - 1e-6 * truth.patches.at(0).pmax) / number.sigma;
+        ++known, within_two += off < 2.0 ? 1 : 0;
+        normalised += off * off;
+      }
+    }
+  }
+  EXPECT_EQ(named, 2 * kScans);
+  ASSERT_GE(known, 2 * kScans - 1);
+  EXPECT_GE(within_two, 3 * known / 4);
+  constexpr double kMostOverstated = 4.0;  // what covers everything says nothing
+  EXPECT_GT(std::sqrt(normalised / known), 1.0 / kMostOverstated);
 }
 
 TEST_F(ImportedNoise, OfKeptLinesCoversWhatResultsAreOff) {

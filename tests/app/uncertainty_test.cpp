@@ -7,24 +7,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/app/compare/compare_cases.hpp"
+#include "treadmark/app/surfaces/surface_store.hpp"
+#include "treadmark/backends/create.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/random.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/results/derivative_table.hpp"
+#include "treadmark/io/results/read_hdf5.hpp"
+#include "treadmark/io/results/write_hdf5.hpp"
 #include "treadmark/io/results/write_json.hpp"
+#include "treadmark/model/shape/surface_errors.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 #include "treadmark/tests/app/standard_case.hpp"
 #include "treadmark/tests/io/results/json_schema.hpp"
+#include "treadmark/tests/support/parts.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -85,6 +96,10 @@ TEST(Uncertainty, IsThatOfHertzFormulas) {
   EXPECT_NEAR(force.sigma, 1.5 * force.value / 0.06 * 0.001, kElements * force.sigma);
   EXPECT_NEAR(pressure.sigma, 0.5 * pressure.value / 0.06 * 0.001, kElements * pressure.sigma);
   EXPECT_FALSE(force.sampled);
+  // elements are counted in the eight solutions that derivatives are held to
+  const Number elements = number_named(u, "patch_1.elements.ncon");
+  EXPECT_TRUE(elements.sampled);
+  EXPECT_NEAR(elements.sigma, elements.value / 0.06 * 0.001, 0.7 * elements.sigma);
   EXPECT_NEAR(force.shares.at(0), 1.0, 1e-6);
   EXPECT_EQ(io::dominant_source(u, force), "100 % wheelset.z_mm");
   const std::string text = io::uncertainty_text(u);
@@ -167,6 +182,119 @@ TEST(Uncertainty, OfHeightsReachesThePlace) {
   ASSERT_EQ(rough.message, "");
   EXPECT_GT(number_named(rough, "patch_1.pmax_MPa").sigma, 0.0);
   EXPECT_LT(number_named(rough, "wheelset.z_mm").sigma, 1e-4) << "the mean of several places";
+}
+
+/// A rail that its import left uncertain, in place of the 60E1 of cases that say where it lies.
+io::RunResult run_on_imported(const std::string& text, const std::vector<SurfaceErrors::Motion>& motions,
+                              const std::vector<SurfaceErrors::Field>& fields = {}) {
+  auto errors = std::make_shared<SurfaceErrors>();
+  errors->y = {-30e-3, 30e-3}, errors->z = {10e-3, 10e-3};
+  errors->u = {0.0}, errors->draws = {{0.0, 0.0}};
+  errors->motions = motions, errors->fields = fields;
+  auto rail = std::make_shared<NaturalSurface>(create_natural({Body::rail, 0.0, StandardProfile{"60E1"}, {}}));
+  rail->spec.errors = std::move(errors);
+  const io::CaseFile file = io::parse_case_text(text, "case.toml");
+  SurfaceStore store;
+  store.put(std::get<io::WheelRailCase>(file.cases.at(0).content).rail, Body::rail, 0.0, rail);
+  return run_cases(file, store);
+}
+
+std::string on_placed_rail(const std::string& more = {}) {
+  std::string text = treadmark::testing::standard_case("1.0");
+  const std::string track = "[track]\ncant = \"1:40\"\n";
+  text.replace(text.find(track), track.size(), "[track]\ncant_rad = 0.025\nrail_y_mm = 753.5\nrail_z_mm = 0\n");
+  return text + more;
+}
+
+/// Where the surface lies in its own axes is as uncertain as where these lie in those of the track.
+TEST(Uncertainty, OfAnImportIsThatOfTheSamePlace) {
+  struct Pair {
+    SurfaceErrors::Motion motion;
+    const char *key, *sigma, *name;
+  };
+  for (const Pair& pair :
+       {Pair{{ErrorSource::lateral, 0.02e-3, 0.0, 0.0}, "track.rail_y_mm", "0.02", "lateral placement of the rail"},
+        Pair{{ErrorSource::height, 0.0, 0.01e-3, 0.0}, "track.rail_z_mm", "0.01", "height of the rail"},
+        Pair{{ErrorSource::tilt, 0.0, 0.0, 1e-4}, "track.cant_rad", "1e-4", "tilt of the rail"}}) {
+    const io::RunResult run = run_on_imported(on_placed_rail(), {pair.motion});
+    ASSERT_TRUE(run.cases.at(0).uncertainty) << pair.name;
+    const io::CaseUncertainty& found = *run.cases[0].uncertainty;
+    const io::CaseUncertainty same = uncertainty_of_text(on_placed_rail(known_to(pair.key, pair.sigma)));
+    ASSERT_EQ(found.message, "") << pair.name;
+    ASSERT_EQ(found.sources.size(), 2u);
+    EXPECT_EQ(found.sources[1].name, pair.name);
+    int compared = 0;
+    for (const char* name : {"wheelset.z_mm", "patch_1.pmax_MPa", "patch_1.approach_mm", "patch_1.fn_N"}) {
+      const Number here = number_named(found, name), there = number_named(same, name);
+      if (here.sampled || there.sampled) continue;
+      ++compared;
+      EXPECT_NEAR(here.sigma, there.sigma, 0.02 * there.sigma + 1e-6 * std::abs(there.value))
+          << pair.key << ' ' << name;
+      if (here.sigma > 1e-5 * std::abs(here.value)) {
+        EXPECT_THAT(io::dominant_source(found, here), HasSubstr(pair.name));
+      }
+    }
+    EXPECT_GT(compared, 0) << pair.name;
+  }
+}
+
+TEST(Uncertainty, OfHeightsThatAreAlikeIsThatOfTheRail) {
+  const io::RunResult run = run_on_imported(on_placed_rail(), {}, {{ErrorSource::registration, 10.0, {{2e-6, 2e-6}}}});
+  ASSERT_TRUE(run.cases.at(0).uncertainty);
+  const io::CaseUncertainty& found = *run.cases[0].uncertainty;
+  ASSERT_EQ(found.message, "");
+  EXPECT_NEAR(number_named(found, "wheelset.z_mm").sigma, 2e-3, 1e-4);
+  EXPECT_NEAR(found.sources.at(1).sigma, 2e-3, 2e-4);
+}
+
+TEST(Uncertainty, IsAskedForOrNot) {
+  const std::vector<SurfaceErrors::Motion> motions{{ErrorSource::height, 0.0, 1e-6, 0.0}};
+  const auto known = [&](const std::string& more) {
+    int count = 0;
+    for (const io::CaseResult& one : run_on_imported(on_placed_rail(more), motions).cases)
+      count += one.uncertainty ? 1 : 0;
+    return count;
+  };
+  const std::string two = "[[cases]]\nwheelset.y_mm = [0, 1]\n", three = "[[cases]]\nwheelset.y_mm = [0, 1, 2]\n";
+  EXPECT_EQ(known(two), 2);
+  EXPECT_EQ(known(three), 0) << "too many unasked";
+  EXPECT_EQ(known("[case]\nerror_bars = \"always\"\n" + three), 3);
+  EXPECT_EQ(known("[case]\nerror_bars = \"never\"\n"), 0);
+  EXPECT_EQ(known("[case]\nerror_bars = \"never\"\n" + known_to("wheelset.vertical_force_N", "1e3")), 0);
+  const io::CaseUncertainty nothing = uncertainty_of_text(on_placed_rail("[case]\nerror_bars = \"always\"\n"));
+  EXPECT_THAT(nothing.message, HasSubstr("nothing says how well"));
+  EXPECT_FALSE(run_cases(io::parse_case_text(on_placed_rail(), "case.toml")).cases.at(0).uncertainty);
+}
+
+TEST(Uncertainty, IsReadBackFromHdf5) {
+  TREADMARK_NEEDS("hdf5");
+  const treadmark::testing::TemporaryFolder folder;
+  const io::RunResult run =
+      run_cases(io::parse_case_text(on_the_crown(0.06) + known_to("wheelset.z_mm", "0.001"), "case.toml"));
+  io::write_hdf5(folder.path() / "fields.h5", run);
+  const io::CaseResult back = io::read_hdf5(folder.path() / "fields.h5").cases.at(0);
+  ASSERT_TRUE(back.uncertainty);
+  EXPECT_EQ(io::uncertainty_text(*back.uncertainty), io::uncertainty_text(*run.cases.at(0).uncertainty));
+  EXPECT_EQ(back.uncertainty->numbers.size(), run.cases[0].uncertainty->numbers.size());
+}
+
+/// Representations are off by as many deviations as the reference is known to.
+TEST(Uncertainty, ScalesComparisons) {
+  const io::CaseFile file = io::parse_case_text(
+      treadmark::testing::standard_case("1.0") + known_to("wheelset.vertical_force_N", "4e3"), "case.toml");
+  CompareSettings settings;
+  settings.backends = {"spline"};
+  settings.resolutions = {1e-3};
+  const io::Comparison found = compare_cases(file, settings);
+  ASSERT_EQ(found.candidates.size(), 2u);
+  const io::CaseResult& reference = found.candidates[0].results.at(0);
+  ASSERT_TRUE(reference.uncertainty);
+  EXPECT_FALSE(found.candidates[1].results.at(0).uncertainty) << "error bars are those of the reference";
+  const Number pressure = number_named(*reference.uncertainty, "patch_1.pmax_MPa");
+  const io::ComparisonRow& row = found.candidates[1].rows.at(0);
+  ASSERT_GT(pressure.sigma, 0.0);
+  EXPECT_NEAR(row.pmax_sigmas, 1e-6 * (row.pmax - reference.patches.at(0).pmax) / pressure.sigma,
+              1e-9 * std::abs(row.pmax_sigmas));
 }
 
 TEST(Uncertainty, DoesNotDependOnThreads) {

@@ -58,7 +58,7 @@ report::Page solving_page(io::CaseFile file, int number, const Progress& progres
   solving.loader = module_file("treadmark-web.js");
   choose_case(file, number);
   SurfaceStore store;
-  io::RunResult result = run_cases(file, store, progress);
+  io::RunResult result = run_cases(without_error_bars(file), store, progress);
   if (!result.complete) throw Cancelled();
   // What the views can show follows from what they show first.
   if (!has_fields(result))

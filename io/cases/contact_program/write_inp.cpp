@@ -322,6 +322,7 @@ class InputWriter {
               "contact.reference_surface = \"plane\" (--set) takes one creepage for a patch, as such files do");
     const bool flexible = deviates(c.state.wheel_offset) || deviates(c.state.wheel_velocity);
     own_settings({{"case.sensitivities", "false"},
+                  {"case.error_bars", toml_text("auto")},
                   {"case.uncertainty", ""},
                   {"case.reference_ways", "true"},
                   {"discretisation.reference_search_mesh", "true"},
