@@ -30,11 +30,11 @@ using unit::kOne;
 
 constexpr FileUnit kRad{"rad"}, kPerM{"1/m"}, kPerMm{"1/mm", 1e-3, "1/m"};
 constexpr unsigned kTableAndCards = kInTable | kInCards;
-constexpr std::string_view
-    kWhyNone = "why there is no number; null: there is one",
-    kNoEllipse = "why there is no ellipse; null: there is one",
-    kOfNoise =
-        "standard deviation of what noise of measured profiles leaves uncertain; only where it was smoothed away";
+constexpr std::string_view kWhyNone = "why there is no number; null: there is one",
+                           kNoEllipse = "why there is no ellipse; null: there is one",
+                           kOfNoise =
+                               "standard deviation of what noise of measured profiles or the import of scans leaves "
+                               "uncertain; only where known";
 
 std::string side(bool right) { return right ? "right" : "left"; }
 const geometry::Touch& before(J j) { return j.right ? j.before.right : j.before.left; }

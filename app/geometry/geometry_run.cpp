@@ -11,12 +11,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <utility>
 
 #include "treadmark/analysis/measured/smoothing.hpp"
 #include "treadmark/app/cases/noise_of_results.hpp"
+#include "treadmark/app/cases/section_heights.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
@@ -25,6 +27,8 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/core/random.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/model/magnitudes.hpp"
@@ -69,8 +73,33 @@ NaturalSurface with_errors(const NaturalSurface& natural, int draw) {
   return create_natural(std::move(spec));
 }
 
+/// With one draw of all errors that its import leaves it, near a station. The same surface has the same ones
+/// everywhere.
+std::shared_ptr<const Surface> with_errors(std::shared_ptr<const Surface> surface, const SurfaceErrors& errors,
+                                           Body body, double u, int draw) {
+  constexpr double kStep = 0.25e-3, kDrawsPerMetre = 1e8;  // of the knots of scatter [m]; as files have them
+  const std::vector<double> places = places_across(*surface, kStep);
+  const std::vector<std::vector<double>> scatter = draws_of_errors(errors, body, u, places);
+  const std::vector<SourceOfErrors> sources = sources_of_errors(errors, body, u, *surface);
+  std::uint64_t seed = static_cast<std::uint64_t>(draw);
+  for (const double error : errors.draws.front())
+    seed = Random(seed + static_cast<std::uint64_t>(to_whole<std::int64_t>(std::round(kDrawsPerMetre * error)))).bits();
+  Random random(seed);
+  const Facing facing = body == Body::rail ? Facing::up : Facing::down;
+  surface =
+      with_heights(std::move(surface),
+                   {facing, places.front(), kStep, scatter[static_cast<std::size_t>(draw) % scatter.size()]}, 1.0);
+  for (const SourceOfErrors& source : sources) {
+    std::vector<double> factors;
+    for (std::size_t k = 0; k < source.errors.size(); ++k) factors.push_back(normal(random));
+    surface = with_heights(std::move(surface), source.errors, factors);
+  }
+  return surface;
+}
+
+/// errors: of which one draw is in it; may be null.
 geometry::Section section_of(const GeometryRequest& request, const std::string& name, Body body, double cant,
-                             const NaturalSurface& natural) {
+                             const NaturalSurface& natural, const SurfaceErrors* errors = nullptr) {
   std::shared_ptr<const Surface> surface = natural.surface;
   if (request.backend.empty() && request.resolution > 0.0) refuse_idle_resolution();
   if (!request.backend.empty()) {
@@ -80,6 +109,9 @@ geometry::Section section_of(const GeometryRequest& request, const std::string& 
     wanted.region.u_max = body == Body::wheel ? request.pitch + kHalfAngle : request.x + kHalfLength;
     surface = represent(natural, wanted).surface;
   }
+  if (errors != nullptr)
+    surface =
+        with_errors(std::move(surface), *errors, body, body == Body::wheel ? request.pitch : request.x, request.draw);
   geometry::Section section = body == Body::wheel ? geometry::wheel_section(*surface, request.pitch)
                                                   : geometry::rail_section(*surface, cant, request.x);
   if (const std::string why = geometry::wrong_body(section); !why.empty())
@@ -195,20 +227,27 @@ std::shared_ptr<const geometry::Section> SectionStore::get(const GeometryRequest
     // a draw of an exact shape is the shape
     if (const auto found = sections_.find(key); found != sections_.end() && !noisy) return found->second;
   }
-  const NaturalSurface natural = noisy ? with_errors(*noisy, request.draw) : surface_of(request, name, body);
-  auto section = std::make_shared<const geometry::Section>(section_of(request, name, body, cant, natural));
+  const bool points = noisy && noisy_profile(*noisy) != nullptr;
+  const NaturalSurface natural = points  ? with_errors(*noisy, request.draw)
+                                 : noisy ? *noisy
+                                         : surface_of(request, name, body);
+  const SurfaceErrors* errors = noisy && !points ? natural.spec.errors.get() : nullptr;
+  auto section = std::make_shared<const geometry::Section>(section_of(request, name, body, cant, natural, errors));
   if (noisy) return section;
   constexpr std::size_t kMost = 2000;  // of long lists whose files come once
   const std::lock_guard lock(mutex_);
   if (!natural.note.empty()) notes_[name] = natural.note;
   if (sections_.size() >= kMost) sections_.clear(), noisy_.clear();
-  if (noisy_profile(natural) != nullptr) noisy_.try_emplace({name, body}, natural);
+  if (noisy_profile(natural) != nullptr || natural.spec.errors) noisy_.try_emplace({name, body}, natural);
   return sections_.try_emplace(key, std::move(section)).first->second;
 }
 
-bool SectionStore::is_noisy(const std::string& name, Body body) {
+std::size_t SectionStore::draws_of(const std::string& name, Body body) {
+  constexpr std::size_t kOfProfile = 8;
   const std::lock_guard lock(mutex_);
-  return noisy_.contains({name, body});
+  const auto found = noisy_.find({name, body});
+  if (found == noisy_.end()) return 0;
+  return noisy_profile(found->second) != nullptr ? kOfProfile : kNearestDraws;
 }
 
 std::string SectionStore::note_of(const std::string& name) {
@@ -293,24 +332,30 @@ namespace {
 
 /// From draws of the profiles' errors, as results of runs have it.
 std::optional<ConicityNoise> noise_of_conicity(const GeometryResult& result, SectionStore& store) {
-  constexpr std::size_t kDraws = 8;
   const GeometryRequest& r = result.request;
-  if (!store.is_noisy(r.wheel, Body::wheel) && !store.is_noisy(r.wheel_left, Body::wheel) &&
-      !store.is_noisy(r.rail, Body::rail) && !store.is_noisy(r.rail_left, Body::rail))
-    return std::nullopt;
-  std::vector<geometry::Analysis> draws(kDraws);
-  parallel_for(kDraws, [&](std::size_t k) {
+  const std::size_t count = std::max({store.draws_of(r.wheel, Body::wheel), store.draws_of(r.wheel_left, Body::wheel),
+                                      store.draws_of(r.rail, Body::rail), store.draws_of(r.rail_left, Body::rail)});
+  if (count == 0) return std::nullopt;
+  std::vector<std::optional<geometry::Analysis>> found(count);
+  parallel_for(count, [&](std::size_t k) {
     GeometryRequest drawn = r;
     drawn.draw = static_cast<int>(k) + 1;
     drawn.settings.wanted_amplitude = result.analysis.single.amplitude;
     drawn.settings.harmonic = false;
-    const GeometryResult placed = read_geometry(drawn, store);
-    draws[k] = geometry::analyse(placed.right, placed.left, placed.placement, placed.request.settings);
+    try {
+      const GeometryResult placed = read_geometry(drawn, store);
+      found[k] = geometry::analyse(placed.right, placed.left, placed.placement, placed.request.settings);
+    } catch (const Error&) {  // a wheelset that cannot be so
+    }
   });
+  std::vector<geometry::Analysis> draws;
+  for (std::optional<geometry::Analysis>& one : found)
+    if (one) draws.push_back(*std::move(one));
+  if (2 * draws.size() < count) return std::nullopt;
   const auto deviation = [&](double base, auto&& of) {
     double squares = 0.0;
     for (const geometry::Analysis& one : draws) squares += std::pow(of(one) - base, 2);
-    return std::sqrt(squares / kDraws);
+    return std::sqrt(squares / static_cast<double>(draws.size()));
   };
   const geometry::Analysis& a = result.analysis;
   ConicityNoise out;

@@ -39,7 +39,7 @@ struct GeometryRequest {
   std::vector<std::string> overrides;                 ///< of the case
   std::optional<double> axle_load;                    ///< what both wheels carry [N]; none: geometry alone
   std::vector<double> gauges;                         ///< at which the conicity is wanted too [m]
-  int draw = 0;                                       ///< of the errors that noise may have left; 0: none
+  int draw = 0;                                       ///< of the errors that a surface may have; 0: none
   geometry::AnalysisSettings settings;
 };
 
@@ -53,7 +53,7 @@ GeometryRequest geometry_request(const io::GivenSettings& given);
 
 inline constexpr double kUsualDiameter = 0.92;  ///< where none is given [m]
 
-/// Standard deviations of what noise of measured profiles leaves uncertain.
+/// Standard deviations of what noise of measured profiles, or the import of scans, leaves uncertain.
 struct ConicityNoise {
   std::vector<double> of_amplitude;  ///< of the conicity at the amplitudes asked for
   double single = 0.0, at_3mm = 0.0;
@@ -66,8 +66,9 @@ class SectionStore {
   /// for a wheel given as a rail or the reverse.
   std::shared_ptr<const geometry::Section> get(const GeometryRequest& request, const std::string& name, Body body,
                                                double cant);
-  /// Whether noise was smoothed away from the profile of a wheel or rail, which was asked for before.
-  bool is_noisy(const std::string& name, Body body);
+  /// How many draws there are of the errors of a wheel or rail, which was asked for before: where noise was smoothed
+  /// away from its profile, or its import knows them; else 0.
+  std::size_t draws_of(const std::string& name, Body body);
   /// What reading a wheel or rail changed in it, which was asked for before; empty: nothing.
   std::string note_of(const std::string& name);
 
@@ -95,7 +96,7 @@ struct GeometryResult {
   geometry::Analysis analysis;
   std::optional<geometry::Analysis> with_new;     ///< the same with new profiles, where they were named
   std::optional<geometry::LoadedFunctions> load;  ///< where a load was given
-  std::optional<ConicityNoise> noise;             ///< where a profile was smoothed by its noise
+  std::optional<ConicityNoise> noise;             ///< where errors of a surface are known
   std::optional<GaugeSweep> sweep;                ///< where gauges were asked for
   std::vector<std::string> notes;
 };

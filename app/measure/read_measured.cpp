@@ -3,6 +3,7 @@
 #include "treadmark/app/measure/read_measured.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -18,6 +19,7 @@
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/model/shape/body_name.hpp"
+#include "treadmark/model/shape/surface_errors.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -80,6 +82,11 @@ ReadMeasured read_any_surface(const std::string& name, const MeasureRequest& req
   out.x_min = box.min.x(), out.x_max = box.max.x();
   if (const auto known = measured_range(natural, {}); known && request.body == Body::rail)
     out.x_min = known->first, out.x_max = known->second;
+  if (const auto& errors = natural.spec.errors) {
+    double squares = std::pow(size_of(*errors).rms, 2);
+    for (const SurfaceErrors::Motion& motion : errors->motions) squares += motion.z * motion.z;
+    out.error = std::sqrt(squares);
+  }
   if (!natural.note.empty()) out.notes.push_back(natural.note);
   const auto warn = [&](const std::string& doubt) {
     out.notes.push_back("warning: " + doubt);

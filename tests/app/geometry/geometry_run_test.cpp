@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <random>
 #include <sstream>
 
@@ -14,6 +15,8 @@
 #include "treadmark/backends/analytic/sample.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/io/profiles/write_slices.hpp"
+#include "treadmark/model/shape/surface_errors.hpp"
 #include "treadmark/tests/support/error_text.hpp"
 #include "treadmark/tests/support/parts.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
@@ -246,6 +249,42 @@ TEST(GeometryRun, StatesWhatNoiseLeavesUncertain) {
   EXPECT_GE(inside, 9 * all / 10);
   SectionStore store;
   EXPECT_FALSE(run_geometry(standard_pair("S1002", "60E1", 1.0 / 40.0, 1435.0), store).noise) << "it is exact";
+}
+
+// Where both wheels lie across on their axle, by the import of one scan, is half of what the distance of wheels is.
+TEST(GeometryRun, OfImportedWheelsKnowsHowTheyLie) {
+  const treadmark::testing::TemporaryFolder folder;
+  constexpr double kOff = 0.1e-3;
+  SliceSet slices;
+  slices.body = Body::wheel, slices.name = "imported";
+  for (int k = 0; k <= 8; ++k) {
+    slices.u.push_back(std::numbers::pi * (0.25 * k - 1.0));
+    slices.profiles.push_back(analytic::sample_profile(StandardProfile{"S1002"}, 0.5e-3));
+  }
+  SurfaceErrors errors;
+  for (const std::size_t i : {std::size_t{0}, slices.profiles[0].y.size() - 1})
+    errors.y.push_back(slices.profiles[0].y[i]), errors.z.push_back(slices.profiles[0].z[i]);
+  errors.u = {0.0}, errors.draws = {{0.0, 0.0}};
+  errors.motions = {{ErrorSource::lateral, kOff, 0.0, 0.0}};
+  const std::string file = (folder.path() / "wheel.slcw").string();
+  io::write_slices(file, slices, {}, to_lines(errors));
+  GeometryRequest request = standard_pair(file, "60E1", 1.0 / 40.0, 1435.0);
+  request.wheel_origins = 1.5;
+  SectionStore store;
+  const GeometryResult found = run_geometry(request, store);
+  ASSERT_TRUE(found.noise);
+  std::vector<std::vector<double>> beside;
+  for (const double off : {-kOff, kOff}) {
+    request.wheel_origins = 1.5 + 2.0 * off;
+    beside.push_back(conicity_of(request));
+  }
+  double stated = 0.0, expected = 0.0;
+  for (std::size_t i = 0; i < beside[0].size(); ++i) {
+    stated += std::pow(found.noise->of_amplitude.at(i), 2);
+    expected += std::pow(0.5 * (beside[1][i] - beside[0][i]), 2);
+  }
+  constexpr double kOfSixteen = 0.5;  // almost three deviations of what so few draws tell
+  EXPECT_NEAR(std::sqrt(stated / expected), 1.0, kOfSixteen);
 }
 
 // The case names wheel and rail alike.
