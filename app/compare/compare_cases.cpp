@@ -151,6 +151,15 @@ io::ComparisonRow row_of(const io::CaseResult& result) {
   return row;
 }
 
+/// Standard deviation of the largest pressure of the main patch [Pa]; NaN: not known.
+double pmax_deviation(const io::CaseResult& result) {
+  if (!result.uncertainty) return kNaN;
+  const std::string name = fmt::format("patch_{}.pmax_MPa", 1 + (main_patch(result) - result.patches.data()));
+  for (const io::CaseUncertainty::Number& number : result.uncertainty->numbers)
+    if (number.name == name) return number.sigma > 0.0 ? number.sigma / kMega : kNaN;
+  return kNaN;
+}
+
 double relative(double value, double truth) { return truth == 0.0 ? 0.0 : (value - truth) / truth; }
 
 /// Whether the largest pressure of the main patch grows with smaller elements: no error of a representation.
@@ -166,6 +175,7 @@ void compare(io::ComparisonRow& row, const io::CaseResult& result, const io::Com
   row.comparable = solved && row.patches > 0 && truth.patches > 0;
   if (!row.comparable) return;
   row.pmax_error = without_limit(true_result) ? kNaN : relative(row.pmax, truth.pmax);
+  row.pmax_sigmas = (row.pmax - truth.pmax) / pmax_deviation(true_result);
   row.mean_pressure_error = relative(row.fn / row.area, truth.fn / truth.area);
   row.area_error = relative(row.area, truth.area);
   row.approach_error = relative(row.approach, truth.approach);
@@ -250,7 +260,9 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
   Progress silent;
   silent.stop = progress.stop;
   const io::CaseFile cases =
-      elements_chosen(file) ? on_elements_of(run_cases(with(file, wanted.front()), store, silent), file) : file;
+      elements_chosen(file)
+          ? on_elements_of(run_cases(without_error_bars(with(file, wanted.front())), store, silent), file)
+          : file;
   for (const Choice& choice : wanted) {
     if (progress.stop_requested()) {
       out.complete = false;
@@ -274,7 +286,8 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
         wheel_breaks = conformance::broken_promise(seen_body(one, store, Body::wheel, about.wheel));
         rail_breaks = conformance::broken_promise(seen_body(one, store, Body::rail, about.rail));
       }
-      const io::RunResult run = run_cases(represented, store, inner);
+      // error bars are those of the reference
+      const io::RunResult run = run_cases(is_first ? represented : without_error_bars(represented), store, inner);
       if (!run.complete) {
         out.complete = false;
         break;

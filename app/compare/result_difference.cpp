@@ -14,6 +14,14 @@ namespace treadmark::app {
 
 namespace {
 
+/// How well a case knows a number, in the unit of its name; 0: it does not.
+double deviation_of(const io::CaseResult& result, const std::string& number) {
+  if (!result.uncertainty) return 0.0;
+  for (const io::CaseUncertainty::Number& one : result.uncertainty->numbers)
+    if (one.name == number) return one.sigma > 0.0 ? one.sigma : 0.0;
+  return 0.0;
+}
+
 /// Differences of one kind of item, case or patch, in all its quantities.
 template <class T>
 class Differences {
@@ -21,7 +29,8 @@ class Differences {
   explicit Differences(ResultDifference& result)
       : result_(result), rows_(io::quantities<T>()), entries_(rows_.size()) {}
 
-  void add(const T& a, const T& b, int case_number, int patch) {
+  void add(const T& a, const T& b, const io::CaseResult& of_a, const io::CaseResult& of_b, int patch) {
+    const int case_number = of_a.number;
     std::string_view meaning;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const io::Quantity<T>& row = rows_[k];
@@ -35,7 +44,12 @@ class Differences {
       const double x = row.access.get(a), y = row.access.get(b);
       const io::Unit& unit = unit_of(row, a);
       entries_[k].push_back(
-          {name(row), meaning, case_number, patch, unit.in_file(x), unit.in_file(y), 0.0, unit, x, y});
+          {name(row), meaning, case_number, patch, unit.in_file(x), unit.in_file(y), 0.0, NAN, unit, x, y});
+      if (!of_a.uncertainty && !of_b.uncertainty) continue;
+      QuantityDifference& entry = entries_[k].back();
+      const std::string number = (patch == 0 ? "" : fmt::format("patch_{}.", patch)) + io::name_of(row);
+      const double sigma = std::hypot(deviation_of(of_a, number), deviation_of(of_b, number));
+      if (sigma > 0.0) entry.sigmas = std::fabs(entry.a - entry.b) / sigma;
     }
   }
 
@@ -96,12 +110,12 @@ ResultDifference compare_results(const io::RunResult& a, const io::RunResult& b)
           fmt::format("case {}: {} and {}", one.number, to_string(one.status), to_string(other.status)));
       continue;
     }
-    cases.add(one, other, one.number, 0);
+    cases.add(one, other, one, other, 0);
     if (one.patches.size() != other.patches.size())
       result.unmatched.push_back(
           fmt::format("case {}: {} and {} patches", one.number, one.patches.size(), other.patches.size()));
     for (std::size_t i = 0; i < std::min(one.patches.size(), other.patches.size()); ++i)
-      patches.add(one.patches[i], other.patches[i], one.number, static_cast<int>(i) + 1);
+      patches.add(one.patches[i], other.patches[i], one, other, static_cast<int>(i) + 1);
   }
   for (const auto& [number, c] : others)
     result.unmatched.push_back(fmt::format("case {}: only the second result has it", number));

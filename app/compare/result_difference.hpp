@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,7 @@ struct QuantityDifference {
   int patch = 0;            ///< from 1; 0: a number of the case
   double a = 0.0, b = 0.0;  ///< in the unit of the JSON file
   double relative = 0.0;    ///< see compare_results
+  double sigmas = NAN;      ///< |a - b| over its standard deviation, where one of both results knows its own
   io::Unit unit = {};       ///< of both numbers
   double si_a = 0.0, si_b = 0.0;
 };

@@ -103,6 +103,37 @@ py::dict patch_to_python(const io::PatchResult& patch, const py::object& owner) 
   return d;
 }
 
+/// As result.json has it.
+py::object uncertainty_of(const io::CaseResult& result) {
+  if (!result.uncertainty) return py::none();
+  const io::CaseUncertainty& u = *result.uncertainty;
+  py::list sources, numbers;
+  for (const io::CaseUncertainty::Source& s : u.sources) {
+    py::dict one;
+    one["name"] = s.name;
+    one["sigma"] = s.sigma;
+    sources.append(one);
+  }
+  for (const io::CaseUncertainty::Number& n : u.numbers) {
+    py::dict one;
+    one["name"] = n.name;
+    one["value"] = n.value;
+    one["sigma"] = n.sigma;
+    one["sampled"] = n.sampled;
+    one["shares"] = n.shares;
+    numbers.append(one);
+  }
+  py::dict d;
+  d["message"] = u.message;
+  d["sources"] = sources;
+  d["numbers"] = numbers;
+  d["checked"] = u.checked;
+  d["samples"] = u.samples;
+  d["others"] = u.others;
+  d["why"] = u.why;
+  return d;
+}
+
 py::dict head_of(const io::RunResult& run) {
   py::list surfaces;
   for (const io::SurfaceUse& use : run.surfaces) {
@@ -145,6 +176,7 @@ py::dict to_python(std::shared_ptr<const io::CaseResult> shared) {
   d["status"] = std::string(io::status_word(result));
   d["message"] = result.message;
   d["remarks"] = remarks;
+  d["uncertainty"] = uncertainty_of(result);
   d["seconds"] = result.seconds;
   d["numbers"] = numbers_of(result);
   d["patches"] = patches;

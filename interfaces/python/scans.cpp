@@ -31,11 +31,9 @@ py::dict maps_of(const Imported& imported) {
   const io::ImportReport& r = *imported.report;
   const py::object owner = owner_of(imported.report);
   py::dict maps;
-  const std::pair<const char*, const io::BandMap*> all[] = {{"density", &r.density},
-                                                            {"removed", &r.removed_map},
-                                                            {"fitted", &r.fitted},
-                                                            {"residual", &r.residual},
-                                                            {"noise", &r.noise_map}};
+  const std::pair<const char*, const io::BandMap*> all[] = {{"density", &r.density}, {"removed", &r.removed_map},
+                                                            {"fitted", &r.fitted},   {"residual", &r.residual},
+                                                            {"noise", &r.noise_map}, {"error", &r.error_map}};
   for (const auto& [name, map] : all)
     if (!map->value.empty())
       maps[name] = py::make_tuple(

@@ -39,6 +39,7 @@ struct ComparisonRow {
   bool comparable = false;  ///< the reference has contact in this case too: the errors below hold
   /// Relative, (p - p_ref)/p_ref; NaN where the reference's has no limit (RemarkKind::edge_pressure).
   double pmax_error = 0.0;
+  double pmax_sigmas = NAN;  ///< the same over the standard deviation of the reference's; NaN where that is not known
   double mean_pressure_error = 0.0;               ///< relative, of fn / area
   double area_error = 0.0, approach_error = 0.0;  ///< relative
   double force_error = 0.0;                       ///< |F - F_ref|/|F_ref| of all patches together

@@ -184,6 +184,7 @@ constexpr Column<ComparedRow> kRows[] = {
     {"memory_bytes", kBytes, "", {[](const ComparedRow& r) { return static_cast<double>(r.all.memory_bytes); }, nullptr, nullptr, true}, "wheel and rail together"},
     {"mean_pressure_error_percent", kPerCent, "", error<&R::mean_pressure_error>(), "of fn over area; older files lack it"},
     {"pmax_error_percent", kPerCent, "", error<&R::pmax_error>(), "with its sign; null where the reference's largest pressure has no limit (edge_pressure). The errors exist only where candidate and reference have contact"},
+    {"pmax_error_sigmas", kOne, "", error<&R::pmax_sigmas>(), "the same in standard deviations that the reference's is known to (case.error_bars); null where it is not; older files lack it"},
     {"area_error_percent", kPerCent, "", error<&R::area_error>()},
     {"approach_error_percent", kPerCent, "", error<&R::approach_error>()},
     {"force_error_percent", kPerCent, "", error<&R::force_error>(), "length of the difference of the forces of all patches, over the reference's"},

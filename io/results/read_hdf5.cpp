@@ -72,6 +72,25 @@ std::vector<Remark> read_remarks(const Hdf5GroupReader& group) {
   return out;
 }
 
+CaseUncertainty read_uncertainty(const Hdf5GroupReader& group) {
+  CaseUncertainty out;
+  out.checked = group.integer("checked"), out.samples = group.integer("samples"), out.others = group.integer("others");
+  out.why = group.text("why"), out.message = group.text("message");
+  const std::vector<std::string> sources = group.texts("sources"), names = group.texts("numbers");
+  if (sources.empty() || names.empty()) return out;
+  const std::size_t count = names.size(), of = sources.size();
+  const std::vector<double> source_sigma = group.numbers("source_sigma", {of}), value = group.numbers("value", {count}),
+                            sigma = group.numbers("sigma", {count}), shares = group.numbers("shares", {count, of});
+  const std::vector<std::uint8_t> sampled = group.bytes("sampled", {count});
+  for (std::size_t k = 0; k < of; ++k) out.sources.push_back({sources[k], source_sigma[k]});
+  for (std::size_t n = 0; n < count; ++n) {
+    const auto first = shares.begin() + static_cast<std::ptrdiff_t>(n * of);
+    out.numbers.push_back(
+        {names[n], value[n], sigma[n], sampled[n] != 0, {first, first + static_cast<std::ptrdiff_t>(of)}});
+  }
+  return out;
+}
+
 }  // namespace
 
 void refuse_result(const Hdf5GroupReader& where, const std::string& what) {
@@ -99,6 +118,7 @@ CaseResult read_case(const Hdf5GroupReader& group) {
     c.bodies = CaseResult::Bodies{read_pose(group, wheel), read_pose(group, rail)};
   if (group.has_attribute("wheel_surface")) c.wheel_surface = group.text("wheel_surface");
   if (group.has_attribute("rail_surface")) c.rail_surface = group.text("rail_surface");
+  if (group.has("uncertainty")) c.uncertainty = read_uncertainty(group.open_group("uncertainty"));
   for (int number = 1;; ++number) {
     const std::string name = fmt::format("patch_{}", number);
     if (!group.has(name)) return c;

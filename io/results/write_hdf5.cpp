@@ -5,10 +5,12 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <initializer_list>
 #include <string>
 #include <utility>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/results/field_table.hpp"
 #include "treadmark/io/results/quantities.hpp"
 #include "treadmark/io/results/read_hdf5.hpp"
@@ -65,6 +67,33 @@ void write_patch(const Hdf5GroupWriter& group, const PatchResult& patch) {
   write_subsurface(group, patch.subsurface);
 }
 
+void write_uncertainty(const Hdf5GroupWriter& group, const CaseUncertainty& u) {
+  const std::pair<const char*, int> counts[] = {{"checked", u.checked}, {"samples", u.samples}, {"others", u.others}};
+  for (const auto& [name, count] : counts) group.add({name, count});
+  group.add({"why", u.why});
+  group.add({"message", u.message});
+  std::vector<std::string> sources, names;
+  std::vector<double> source_sigma, value, sigma, shares;
+  std::vector<std::uint8_t> sampled;
+  for (const CaseUncertainty::Source& s : u.sources) sources.push_back(s.name), source_sigma.push_back(s.sigma);
+  for (const CaseUncertainty::Number& n : u.numbers) {
+    names.push_back(n.name), value.push_back(n.value), sigma.push_back(n.sigma), sampled.push_back(n.sampled ? 1 : 0);
+    // none where nothing is known of a number
+    for (std::size_t k = 0; k < sources.size(); ++k) shares.push_back(k < n.shares.size() ? n.shares[k] : kNaN);
+  }
+  group.add({"sources", sources});
+  group.add({"numbers", names});
+  if (sources.empty() || names.empty()) return;
+  const char* unit = "that of the name";
+  group.write({"source_sigma", {sources.size()}, unit, "standard deviation of what is given; of heights in mm"},
+              source_sigma);
+  group.write({"value", {names.size()}, unit, "of numbers"}, value);
+  group.write({"sigma", {names.size()}, unit, "standard deviation of numbers"}, sigma);
+  group.write({"sampled", {names.size()}, "1", "from a sample; else by derivatives"}, sampled);
+  group.write({"shares", {names.size(), sources.size()}, "1", "of each source in the variance; NaN: not known"},
+              shares);
+}
+
 }  // namespace
 
 void write_case(const Hdf5GroupWriter& group, const CaseResult& result, CaseTimes times) {
@@ -77,6 +106,7 @@ void write_case(const Hdf5GroupWriter& group, const CaseResult& result, CaseTime
     check_blocks(patch.subsurface, fmt::format("case {}, patch {}: ", result.number, number));
     write_patch(group.make_group(fmt::format("patch_{}", number)), patch);
   }
+  if (result.uncertainty) write_uncertainty(group.make_group("uncertainty"), *result.uncertainty);
 }
 
 void write_surfaces(const Hdf5GroupWriter& parent, std::span<const SampledSurface> surfaces) {

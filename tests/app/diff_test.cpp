@@ -55,6 +55,23 @@ TEST(ResultDifference, LargestDifferenceOfEachQuantityIsNamed) {
   EXPECT_TRUE(app::agree(difference, 0.05));
 }
 
+TEST(ResultDifference, IsCountedInItsDeviations) {
+  io::RunResult a = two_cases(), b = a;
+  b.cases[1].patches[0].fn += 50.0;
+  for (io::RunResult* run : {&a, &b}) {
+    io::CaseUncertainty& known = run->cases[1].uncertainty.emplace();
+    known.sources = {{"wheelset.z_mm", 0.1}};
+    known.numbers = {{"patch_1.fn_N", 2000.0, run == &a ? 30.0 : 40.0, false, {1.0}}};
+  }
+  const app::QuantityDifference worst = app::compare_results(a, b).quantities.front();
+  EXPECT_EQ(worst.key, "fn_N");
+  EXPECT_DOUBLE_EQ(worst.sigmas, 1.0) << "both are uncertain";
+  b.cases[1].uncertainty.reset();
+  EXPECT_NEAR(app::compare_results(a, b).quantities.front().sigmas, 50.0 / 30.0, 1e-12);
+  a.cases[1].uncertainty.reset();
+  EXPECT_TRUE(std::isnan(app::compare_results(a, b).quantities.front().sigmas));
+}
+
 TEST(ResultDifference, NumbersAreInTheUnitsOfTheFileAndInSi) {
   io::RunResult a = two_cases();
   a.cases[0].patches[0].shift = true;

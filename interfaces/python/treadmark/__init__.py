@@ -12,7 +12,8 @@ from __future__ import annotations
 from . import _treadmark
 from ._errors import Cancelled, ConvergenceWarning, InputError, MissingFileError, NumericalError, TreadmarkError
 from ._inputs import checked as _checked
-from ._records import CASE_QUANTITIES, FIELDS, PATCH_QUANTITIES, Case, Field, Grid, Patch, Quantity, Remark, Result
+from ._records import (CASE_QUANTITIES, FIELDS, PATCH_QUANTITIES, Case, Field, Grid, KnownNumber, Patch, Quantity, Remark, Result,
+                       Uncertainty)
 from ._requests import (Conicity, GaugeMap, Geometry, Jump, LibraryProfile, LimitCheck, Measure, Measured, SecondContact, ShiftLimit, geometry,
                         measure, measure_files, measures_to_pandas, profiles)
 from ._solving import Gradient, Pair, PatchSolver, Problem, ShapeGradient, Solution, State, hertz, settings

@@ -214,6 +214,29 @@ class Patch(_Named):
         return {"points": points, "faces": first + [0, 1, nx + 2, nx + 1], "cell_data": {name: values.ravel() for name, values in self.fields.items()}}
 
 
+class KnownNumber(NamedTuple):
+    """A number with its standard deviation, in SI."""
+
+    value: float
+    sigma: float  #: NaN: not known; 0: below what solutions leave open
+    sampled: bool  #: from a sample of solutions, else by derivatives
+    shares: list[float]  #: of each of the sources in the variance; NaN: not known
+    dominant: str  #: source of the largest share, or ""
+
+
+@dataclasses.dataclass(eq=False)
+class Uncertainty:
+    """How well the numbers of a case are known, where it or its surfaces say how well they are."""
+
+    numbers: dict[str, KnownNumber]  #: by name: "wheelset.z", "patch_1.pmax"
+    sources: list[tuple[str, float]]  #: what is known how well: name, and sigma in the unit of the key or mm
+    message: str = ""  #: why nothing is known
+    why: str = ""  #: there is a sample
+    checked: int = 0  #: solutions that derivatives were held to
+    samples: int = 0  #: solutions of the sample; 0: derivatives do
+    others: int = 0  #: of the sample, with another number of patches or none
+
+
 @dataclasses.dataclass(eq=False)
 class Case(Held, _Named):
     """What came out of a case: a wheel on a rail at one instant, or one patch.
@@ -232,6 +255,7 @@ class Case(Held, _Named):
     seconds: float = 0.0
     patches: list[Patch] = dataclasses.field(default_factory=list)
     force_iterations: list[tuple[float, float]] = dataclasses.field(default_factory=list)  #: (z [m], vertical force [N])
+    uncertainty: Uncertainty | None = None  #: where the case or its surfaces say how well they are known
     _held: Any = dataclasses.field(default=None, repr=False)
 
     def __repr__(self) -> str:
@@ -277,6 +301,32 @@ class Case(Held, _Named):
 Solution = Case
 
 
+#: Names of numbers in result.json: theirs here, and what one in SI is there.
+_IN_FILES = {part: {(f"{q.object}." if q.object else "") + q.key: (name, q.in_file) for name, q in table.items()}
+             for part, table in (("", CASE_QUANTITIES), ("patch", PATCH_QUANTITIES))}
+
+
+def uncertainty_of(raw: dict[str, Any] | None) -> Uncertainty | None:
+    """What result.json says of a case, in SI."""
+    if raw is None:
+        return None
+
+    def real(value: float | None) -> float:
+        return math.nan if value is None else value
+
+    sources = [(source["name"], real(source["sigma"])) for source in raw["sources"]]
+    numbers = {}
+    for number in raw["numbers"]:
+        patch, _, rest = number["name"].partition(".")
+        of_patch = patch.startswith("patch_")
+        name, factor = _IN_FILES["patch" if of_patch else ""][rest if of_patch else number["name"]]
+        shares = [real(share) for share in number["shares"]]
+        largest = max(((share, source) for share, (source, _) in zip(shares, sources) if share == share), default=(math.nan, ""))[1]
+        numbers[f"{patch}.{name}" if of_patch else name] = KnownNumber(
+            real(number["value"]) / factor, real(number["sigma"]) / factor, number["sampled"], shares, largest)
+    return Uncertainty(numbers, sources, *(raw[key] for key in ("message", "why", "checked", "samples", "others")))
+
+
 def patch_of(raw: dict[str, Any]) -> Patch:
     raw["grid"] = Grid(*raw["grid"])
     return Patch(**raw)
@@ -285,6 +335,7 @@ def patch_of(raw: dict[str, Any]) -> Patch:
 def case_of(raw: dict[str, Any]) -> Case:
     raw["number"] = raw["number"] or 1  # of a pair's solution there is none
     raw["patches"] = [patch_of(patch) for patch in raw["patches"]]
+    raw["uncertainty"] = uncertainty_of(raw["uncertainty"])
     raw["remarks"] = [Remark(name, without_folder(text), *rest) for name, text, *rest in raw["remarks"]]
     return Case(_held=raw.pop("_handle"), **raw)
 
@@ -453,7 +504,8 @@ def result_of_json(text: str) -> Result:
         for p in c["patches"]:
             shift = "frictional_work_J" in p
             patches.append(Patch(numbers(PATCH_QUANTITIES, p, shift), id=p.get("id", 0), came_from=p.get("came_from", []), shift=shift))
-        cases.append(Case(numbers(CASE_QUANTITIES, c), c["case"], c["status"], c.get("message", ""), remarks, c.get("seconds") or 0.0, patches))
+        cases.append(Case(numbers(CASE_QUANTITIES, c), c["case"], c["status"], c.get("message", ""), remarks, c.get("seconds") or 0.0, patches,
+                          uncertainty=uncertainty_of(c.get("uncertainty"))))
     made, given = document["treadmark"], document["input"]
     return Result(cases, made["version"], made["git"], made["threads"], made["seconds"], given["file"], given["sha256"],
                   given.get("title", ""), [(g["file"], g["sha256"]) for g in given.get("geometry", [])], settings=document["settings"],

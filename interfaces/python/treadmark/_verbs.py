@@ -278,7 +278,7 @@ class ScanImport(_Document):
 
     @property
     def maps(self) -> dict[str, BandMap]:
-        """"density" and "removed" [1/m^2], "fitted", "residual" and "noise" [m], without copies."""
+        """"density" and "removed" [1/m^2], "fitted", "residual", "noise" and "error" [m], without copies."""
         return {name: BandMap(*value) for name, value in self._held.maps().items()}
 
     def summary(self) -> str:
