@@ -16,12 +16,14 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/app/cases/section_heights.hpp"
 #include "treadmark/app/cases/solve_cases.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/simulations/read_design.hpp"
@@ -121,7 +123,10 @@ double largest_pressure(const DesignCases& cases, const std::vector<CaseGeometry
       Facing::up, -36e-3, 6e-3, {0.0, 0.0, 0.0, 0.0, 0.0, first, second, 0.0, 0.0, 0.0, 0.0, 0.0}};
   std::vector<std::optional<wheelrail::Geometry>> bodies;
   bodies.reserve(given.size());
-  for (const CaseGeometry& one : given) bodies.emplace_back(with_heights(one.geometry, depth, 1.0));
+  for (const CaseGeometry& one : given) {
+    wheelrail::Geometry& changed = bodies.emplace_back(one.geometry).value();
+    changed.rail = with_heights(std::move(changed.rail), depth, 1.0);
+  }
   double most = 0.0;
   for (const io::CaseResult& c : solve_cases(cases.given(), bodies).cases)
     for (const io::PatchResult& patch : c.patches) most = std::max(most, 1e-6 * patch.pmax);
