@@ -2,22 +2,16 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <sys/socket.h>
-
-#include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstddef>
 #include <cstdint>
 #include <string>
-#include <type_traits>
 #include <vector>
+
+#include "treadmark/core/channel.hpp"
 
 namespace treadmark::io::cad {
 
-/// What Treadmark and the program that holds OpenCASCADE, a process of its own, say to each other over a socket: any
-/// file may break that program, and Treadmark lives on. Both are of one build on one machine, so numbers go as they
-/// are.
+/// What Treadmark and the program that holds OpenCASCADE say to each other (core/helper_process.hpp).
 
 using Point = std::array<double, 3>;  ///< [m]
 
@@ -84,81 +78,6 @@ enum class Question : std::int64_t {
   entity,        ///< face: number and kind of the entity of the file that it was made of
   spline_of,     ///< face, part of it that counts: why it is no B-spline there, or the spline
   triangles_of,  ///< faces, greatest deviation and length of sides [m]: CadTriangles
-};
-
-/// The other end is gone, or says what makes no sense.
-struct Broken {};
-
-/// What both ends say and hear.
-class Channel {
- public:
-  virtual ~Channel() = default;
-
-  template <class T>
-  void put(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    put_bytes(&value, sizeof(T));
-  }
-  template <class T>
-  void put_list(const T& list) {
-    put(static_cast<std::int64_t>(list.size()));
-    put_bytes(list.data(), list.size() * sizeof(list[0]));
-  }
-  template <class T>
-  T take() {
-    static_assert(std::is_trivially_copyable_v<T>);
-    T value;
-    take_bytes(&value, sizeof(T));
-    return value;
-  }
-  template <class List>
-  List take_list() {
-    constexpr std::int64_t kMost = 100'000'000, kAtOnce = 65'536;
-    const auto size = take<std::int64_t>();
-    if (size < 0 || size > kMost) throw Broken{};
-    List list;
-    // no more memory than there is something to fill it
-    for (std::int64_t have = 0; have < size;) {
-      const std::int64_t more = std::min(kAtOnce, size - have);
-      list.resize(static_cast<std::size_t>(have + more));
-      take_bytes(list.data() + have, static_cast<std::size_t>(more) * sizeof(list[0]));
-      have += more;
-    }
-    return list;
-  }
-
- protected:
-  virtual void put_bytes(const void* data, std::size_t size) = 0;
-  /// Also Broken where the other end says nothing for too long.
-  virtual void take_bytes(void* data, std::size_t size) = 0;
-};
-
-/// One end of a socket.
-class SocketChannel : public Channel {
- public:
-  explicit SocketChannel(int socket) : socket_(socket) {}
-
- protected:
-  void put_bytes(const void* data, std::size_t size) override {
-    const char* bytes = static_cast<const char*>(data);
-    while (size > 0) {
-      const ssize_t n = ::send(socket_, bytes, size, MSG_NOSIGNAL);
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) throw Broken{};
-      bytes += n, size -= static_cast<std::size_t>(n);
-    }
-  }
-  void take_bytes(void* data, std::size_t size) override {
-    char* bytes = static_cast<char*>(data);
-    while (size > 0) {
-      const ssize_t n = ::recv(socket_, bytes, size, 0);
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) throw Broken{};
-      bytes += n, size -= static_cast<std::size_t>(n);
-    }
-  }
-
-  int socket_;
 };
 
 inline void put(Channel& c, const CadFault& fault) {

@@ -11,8 +11,7 @@
 
 namespace treadmark::io::cad {
 
-/// Starts the program that holds OpenCASCADE, treadmark-opencascade, which ends with the channel. file: for messages.
-/// Errors: Error(configuration) naming the places where the program was looked for.
+/// Starts the program that holds OpenCASCADE, treadmark-opencascade. Errors: those of start_helper.
 std::unique_ptr<Channel> start_opencascade(const std::string& file);
 
 /// The faces of a CAD file, trimmed as it says. One thread. Errors of all: Error(input_data) where the program at the

@@ -70,11 +70,11 @@ HEAVY_FREE = ("tests", "bench")
 # Know nothing of a surface but its contract (core/surface.hpp), so that surfaces made of others may stand in for them.
 CONTRACT_ONLY = ("analysis/", "detection/", "solvers/")
 
-# What comes from files must never reach a shell, so the program and its libraries start no other programs; but for the one that
-# holds OpenCASCADE and what prints and opens pages, by their paths and without a shell.
+# What comes from files must never reach a shell, so the program and its libraries start no other programs; but for those
+# that hold OpenCASCADE and OpenVDB and what prints and opens pages, by their paths and without a shell.
 STARTS_PROGRAMS = re.compile(r"(?<![\w.>])(system|w?popen|v?fork|exec[lv]p?e?|posix_spawnp?)\s*\(")
 MAY_START = ("tests", "bench")
-STARTS_ITS_OWN = ("io/cad/cad_process.cpp", "app/cli/page_file.cpp")
+STARTS_ITS_OWN = ("core/helper_process.cpp", "app/cli/page_file.cpp")
 
 # A double beyond an integer's range has no value as one (core/to_whole.hpp). What is cast is one by its names and its words.
 INTEGER = r"(?:unsigned|int|long|long long|short|std::size_t|std::ptrdiff_t|std::u?int\d+_t)"

@@ -59,22 +59,18 @@
 #include <gp_Ax1.hxx>
 #include <gp_Lin.hxx>
 
-#include <sys/prctl.h>
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <csignal>
 #include <ctime>
 #include <limits>
 #include <memory>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <unordered_map>
 #include <utility>
 
+#include "treadmark/core/helper_program.hpp"
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/cad/cad_messages.hpp"
@@ -835,18 +831,8 @@ void answer(Channel& channel, const Shape& shape) {
   }
 }
 
-/// A file may ask for anything. Ctrl-C is for the other end, and nothing goes on without it.
-void bound_what_it_takes() {
-  std::signal(SIGINT, SIG_IGN);
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  constexpr rlim_t kMemory = 16ULL << 30, kSeconds = 3600;
-  const rlimit none{0, 0}, memory{kMemory, kMemory}, time{kSeconds, kSeconds};
-  ::setrlimit(RLIMIT_CORE, &none);
-  ::setrlimit(RLIMIT_AS, &memory);
-  ::setrlimit(RLIMIT_CPU, &time);
-}
-
 void serve(Channel& channel) {
+  bound_what_a_file_takes();
   enum class Task : std::int64_t { step, iges, write };
   const auto task = channel.take<Task>();
   const auto file = channel.take_list<std::string>();
@@ -870,14 +856,5 @@ void serve(Channel& channel) {
 }  // namespace treadmark::io::cad
 
 int main(int count, char** arguments) {
-  constexpr int kSocket = 3;
-  if (count != 2 || std::string_view(arguments[1]) != TREADMARK_MODULE_VERSION) return 2;
-  treadmark::io::cad::bound_what_it_takes();
-  try {
-    treadmark::io::cad::SocketChannel channel(kSocket);
-    treadmark::io::cad::serve(channel);
-  } catch (...) {  // the other end sees that this one is gone
-    return 1;
-  }
-  return 0;
+  return treadmark::serve_as_helper(count, arguments, TREADMARK_MODULE_VERSION, treadmark::io::cad::serve);
 }
