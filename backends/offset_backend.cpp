@@ -45,9 +45,7 @@ std::shared_ptr<const Surface> as_offset(Resampling& r, offset::Interpolation in
 
 Backend offset_row(std::string name, const std::string& how, double order, offset::Interpolation interpolation) {
   const auto resample = [interpolation, name](Resampling& r) { return as_offset(r, interpolation, name); };
-  Backend row{std::move(name), "base plus sparse offsets, interpolated " + how, order, true, resample};
-  row.part = "openvdb";
-  return row;
+  return {std::move(name), "base plus sparse offsets, interpolated " + how, order, true, resample};
 }
 
 }  // namespace

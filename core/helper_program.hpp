@@ -4,8 +4,11 @@
 
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <csignal>
+#include <cstdint>
+#include <fstream>
 #include <string_view>
 
 #include "treadmark/core/channel.hpp"
@@ -30,11 +33,14 @@ int serve_as_helper(int count, char** arguments, std::string_view version, Serve
   return 0;
 }
 
-/// A file may ask for anything.
-inline void bound_what_a_file_takes() {
-  constexpr rlim_t kMemory = 16ULL << 30, kSeconds = 3600;
-  const rlimit memory{kMemory, kMemory}, time{kSeconds, kSeconds};
-  ::setrlimit(RLIMIT_AS, &memory);
+/// A file may ask for anything. memory: beyond what the program has now [bytes].
+inline void bound_what_a_file_takes(std::uint64_t memory) {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  constexpr rlim_t kSeconds = 3600;
+  const rlim_t most = pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) + memory;
+  const rlimit space{most, most}, time{kSeconds, kSeconds};
+  ::setrlimit(RLIMIT_AS, &space);
   ::setrlimit(RLIMIT_CPU, &time);
 }
 

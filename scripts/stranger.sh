@@ -68,10 +68,10 @@ awk -v a="$begun" -v b="$(date +%s.%N)" -v size="$(stat -c %s case.html)" \
 step "CAD that is not there names its package" names_package treadmark-cad treadmark check rail.step
 install treadmark-cad
 step "treadmark check rail.step" treadmark check rail.step
-sed -i 's/^shape.file = "wheel.csv"/&\nbackend = "offset"/' case.toml
-step "offsets that are not there name their package" names_package treadmark-openvdb treadmark run case.toml
+sed -i 's/^shape.file = "wheel.csv"/&\nbackend = "level-set"/' case.toml
+step "level sets that are not there name their package" names_package treadmark-openvdb treadmark run case.toml
 install treadmark-openvdb
-step "treadmark run case.toml with offsets" treadmark run case.toml
+step "treadmark run case.toml with level sets" treadmark run case.toml
 install libtreadmark-dev libtreadmark0 g++ cmake make
 step "program in C" program_in_c
 step "program in C++, with CMake" program_in_cxx

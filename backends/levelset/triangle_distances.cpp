@@ -5,15 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 
 #include <fmt/format.h>
 
 #include "treadmark/backends/levelset/block_index.hpp"
-#include "treadmark/backends/offset/openvdb/sheet_library.hpp"
+#include "treadmark/backends/offset/vdb_file.hpp"
 #include "treadmark/core/check_point.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/helper_process.hpp"
+#include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/core/to_whole.hpp"
 
@@ -346,15 +349,37 @@ Skin::Nearest Skin::nearest(const Vec3& p, std::uint32_t t) const {
   return found;
 }
 
+/// By OpenVDB, of nodes in a band about the triangles.
+std::vector<offset::NearestBlock> nearest_triangles(const Skin& skin, const TriangleMesh& mesh) {
+  constexpr int kLongestSilence = 3600;  // [s]
+  const std::vector<Corners>& corners = skin.triangles();
+  std::unique_ptr<Channel> channel = offset::start_openvdb(mesh.name, kLongestSilence);
+  std::string fault;
+  std::vector<offset::NearestBlock> found;
+  talk_to(
+      channel,
+      [&](Channel& c) {
+        c.put(offset::VdbTask::nearest);
+        c.put_list(skin.vertices());
+        c.put_list(corners);
+        c.put(kHalfWidth);
+        c.put(static_cast<std::int64_t>(thread_count()));
+        fault = c.take_list<std::string>();
+        if (fault.empty()) found = c.take_list<std::vector<offset::NearestBlock>>();
+      },
+      [&] {
+        return Error(ErrorKind::configuration, fmt::format("OpenVDB broke down over the mesh '{}'", mesh.name), {},
+                     "is there enough memory? take larger voxels");
+      });
+  if (!fault.empty()) refuse(mesh, fault);
+  return found;
+}
+
 }  // namespace
 
 TriangleDistances distances_of(const TriangleMesh& mesh, double voxel, std::optional<Body> body) {
   const Skin skin(mesh, voxel, body);
-  std::vector<offset::NearestBlock> found;
-  const offset::SheetFault fault =
-      offset::sheet_library().nearest(skin.vertices().data()->data(), skin.vertices().size(),
-                                      skin.triangles().data()->data(), skin.triangles().size(), kHalfWidth, found);
-  if (!fault.message.empty()) refuse(mesh, fault.message);
+  const std::vector<offset::NearestBlock> found = nearest_triangles(skin, mesh);
   TriangleDistances out;
   out.closed = skin.closed();
   out.grid.name = mesh.name;

@@ -17,7 +17,7 @@
 
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/offset/sheet_grid.hpp"
-#include "treadmark/backends/offset/vdb_tree_reader.hpp"
+#include "treadmark/backends/offset/vdb_file.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/number_text.hpp"
@@ -94,7 +94,7 @@ std::string take_transform(const SheetFile& sheet, SheetFrame& f, const fs::path
 
 }  // namespace
 
-std::vector<char> vdb_bytes(const fs::path& file) {
+VdbFile open_vdb(const fs::path& file, const VdbWords& words) {
   require_file(file, "VDB file", ErrorKind::input_data);
   std::error_code problem;
   if (!fs::is_regular_file(file, problem))
@@ -114,14 +114,13 @@ std::vector<char> vdb_bytes(const fs::path& file) {
     refuse("this is not a VDB file", "was it written by OpenVDB, or by treadmark convert?");
   const char* trailer = data.data() + data.size() - kTrailer;
   if (data.size() < kTrailer + kVdbMagic.size() || !std::equal(kMark.begin(), kMark.end(), trailer))
-    return data;  // OpenVDB wrote it
+    return {start_openvdb(file.string()), file, data.size(), words};  // OpenVDB wrote it
   std::uint64_t covered = 0, sum = 0;
   std::memcpy(&covered, trailer + 8, sizeof(covered));
   std::memcpy(&sum, trailer + 16, sizeof(sum));
   if (covered != data.size() - kTrailer || sum != sum_of(data.data(), data.size() - kTrailer))
     refuse("the VDB file is damaged: its check sum does not fit", "write or copy it again");
-  data.resize(data.size() - kTrailer);
-  return data;
+  return {start_openvdb(file.string()), file, covered, words};
 }
 
 void write_vdb(const fs::path& file, const OffsetFile& content) {
@@ -138,9 +137,12 @@ void write_vdb(const fs::path& file, const OffsetFile& content) {
 }
 
 OffsetFile read_vdb(const fs::path& file) {
+  static constexpr VdbWords kWords{"the offsets", "offsets come from treadmark convert or import, as .vdb"};
+  return from_sheet(read_sheet(open_vdb(file, kWords)), file);
+}
+
+OffsetFile from_sheet(SheetFile sheet, const fs::path& file) {
   constexpr float kAbsurd = 1.0f;  // [m]
-  const std::vector<char> data = vdb_bytes(file);
-  SheetFile sheet = read_sheet({data.data(), data.size()}, file);
   const auto offsets = std::make_shared<SparseOffsets>();
   OffsetFile result;
   from_metadata(sheet.metadata, *offsets, result.base, file.string());
@@ -148,9 +150,9 @@ OffsetFile read_vdb(const fs::path& file) {
   result.remark = take_transform(sheet, f, file);
   for (const SheetGrid::Entry& b : sheet.grid.blocks()) {
     for (int k = 0; k < kBlockI * kBlockJ; ++k)
-      if (std::fabs(b.values[k]) > kAbsurd)
-        throw Error(ErrorKind::input_data, "an offset in the VDB file is greater than a metre", {file.string()},
-                    "offsets are in metres");
+      if (!(std::fabs(b.values[k]) <= kAbsurd))
+        throw Error(ErrorKind::input_data, "an offset in the file is no number, or greater than a metre",
+                    {file.string()}, "offsets are in metres");
     if (f.turn > 0 && (b.key.bi < 0 || b.key.bi * kBlockI >= f.turn))
       throw Error(ErrorKind::input_data, "voxels in the VDB file lie beyond the turn", {file.string()});
   }

@@ -224,9 +224,11 @@ class SheetField final : public displacement::OffsetField, public std::enable_sh
     for (const auto& [bj, blocks] : rows)
       if (blocks != all_round) return false;
     for (int i = 1; i < frame_.turn; ++i)
-      for (const auto& [bj, blocks] : rows)
-        for (int j = bj * kBlockJ; j < (bj + 1) * kBlockJ; ++j)
-          if (offsets_->grid.value(i, j) != offsets_->grid.value(0, j)) return false;
+      for (const auto& [bj, blocks] : rows) {
+        const float *first = offsets_->grid.block({0, bj}), *here = offsets_->grid.block({i >> 3, bj});
+        if (first == nullptr || here == nullptr) return false;
+        if (!std::equal(first, first + kBlockJ, here + (i & 7) * kBlockJ)) return false;
+      }
     return true;
   }
 

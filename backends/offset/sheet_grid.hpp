@@ -3,28 +3,27 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "treadmark/backends/offset/sheet_types.hpp"
 
 namespace treadmark::offset {
 
-class SheetStorage;
+class VdbFile;
 
-/// Sparse float values on voxels (i, j), background 0, in an OpenVDB grid. A sheet one voxel thick would waste 7/8 of
-/// each leaf, so voxel (i, j) is stored at (i, j / 8, j mod 8): a leaf then holds 8 x 64 voxels of the sheet side by
-/// side. Building is not thread-safe, reading is.
+/// Sparse float values on voxels (i, j), background 0, in blocks. Building is not thread-safe, reading is.
 class SheetGrid {
  public:
-  SheetGrid();
-  ~SheetGrid();
-  SheetGrid(SheetGrid&&) noexcept;
-  SheetGrid& operator=(SheetGrid&&) noexcept;
+  SheetGrid() = default;
+  /// Blocks, ordered by key, in the memory of another object, which is kept. Nothing is inserted.
+  SheetGrid(std::shared_ptr<const void> owner, std::vector<SheetEntry> blocks)
+      : owner_(std::move(owner)), lent_(std::move(blocks)) {}
+  SheetGrid(SheetGrid&&) noexcept = default;
+  SheetGrid& operator=(SheetGrid&&) noexcept = default;
 
   /// Values with |value| > tolerance become active, the others stay as they are (0); a block without any
   /// is not stored.
@@ -43,22 +42,24 @@ class SheetGrid {
   std::vector<Entry> blocks() const;
 
   std::size_t active_count() const;
-  std::size_t memory_bytes() const;  ///< the whole tree
+  std::size_t memory_bytes() const;
 
  private:
-  std::unique_ptr<SheetStorage> storage_;
+  std::map<BlockKey, Block> own_;  ///< whose places stay, also where the grid is moved
+  std::shared_ptr<const void> owner_;
+  std::vector<Entry> lent_;
 };
 
 /// A sheet as it lies in a file: voxel (i, j, 0) at (u0 + i du, y0 + j dy).
 struct SheetFile {
   SheetGrid grid;
   double u0 = 0.0, y0 = 0.0, du = 1.0, dy = 1.0;
-  std::map<std::string, std::string> metadata;
+  Metadata metadata;
 };
-/// The bytes of a VDB file. Errors: Error(configuration) for steps that such a file cannot hold.
+/// The bytes of a VDB file. Errors: Error(configuration) for steps that such a file cannot hold; those of
+/// start_openvdb.
 std::string sheet_bytes(const SheetGrid& grid, const SheetFile& frame);
-/// data: the bytes of a VDB file, which may be hostile: time and memory stay in proportion to them. file: its name for
-/// messages. Errors: Error(input_data) for everything that is not a finite sheet of floats as sheet_bytes makes it.
-SheetFile read_sheet(std::string_view data, const std::filesystem::path& file);
+/// Errors: Error(input_data) for everything that is not a finite sheet of numbers as sheet_bytes makes it.
+SheetFile read_sheet(VdbFile vdb);
 
 }  // namespace treadmark::offset

@@ -6,10 +6,14 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <string>
 
 namespace treadmark::offset {
 
-constexpr int kBlockI = 8, kBlockJ = 64;  ///< voxels of a block, one OpenVDB leaf
+/// Voxels of a block. A sheet one voxel thick would waste 7/8 of each leaf of OpenVDB and NanoVDB, 8 x 8 x 8 voxels, so
+/// voxel (i, j) is thought to lie at (i, j / 8, j mod 8): a leaf then holds 8 x 64 voxels of the sheet side by side.
+constexpr int kBlockI = 8, kBlockJ = 64;
 
 /// Values of one block, index = (i mod 8) * 64 + (j mod 64).
 using Block = std::array<float, std::size_t{kBlockI} * kBlockJ>;
@@ -25,6 +29,9 @@ struct SheetEntry {
   BlockKey key;
   const float* values;
 };
+
+/// Texts by their names.
+using Metadata = std::map<std::string, std::string>;
 
 /// Name of the grid in a file.
 constexpr const char* kGridName = "treadmark_offsets";

@@ -14,7 +14,6 @@
 #include "treadmark/backends/assembly/placed_surface.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/backends/spline/make.hpp"
-#include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark::testing {
 namespace {
@@ -159,7 +158,6 @@ TEST(SurfaceData, AreNotToldBySeveralParts) {
 }
 
 TEST(SurfaceData, OfARepresentationAreThoseOfItsBase) {
-  TREADMARK_NEEDS("openvdb");
   const Line line(Body::rail);
   SurfaceSpec spec = of_points(Body::rail);
   spec.defects = dip();

@@ -90,18 +90,18 @@ TEST(Registry, ChoicesAreAsGivenFirstThenAtEveryResolution) {
 TEST(Registry, WhatIsLeftOutSaysHowItIsPutIn) {
   std::string left_out;
   for (const Backend* row : left_out_backends()) left_out += row->name + ' ';
-  EXPECT_EQ(left_out, has_part("openvdb") ? "" : "offset offset-quadratic offset-bilinear level-set ");
+  EXPECT_EQ(left_out, has_part("openvdb") ? "" : "level-set ");
   if (has_part("openvdb")) {
-    EXPECT_EQ(backend_of("offset").part, "openvdb");
+    EXPECT_EQ(backend_of("level-set").part, "openvdb");
     return;
   }
-  EXPECT_THAT(backend_names(), ::testing::Not(::testing::Contains("offset")));
+  EXPECT_THAT(backend_names(), ::testing::Not(::testing::Contains("level-set")));
   try {
-    create_surface(kRail, "offset");
-    ADD_FAILURE() << "offset is not refused";
+    create_surface(kRail, "level-set");
+    ADD_FAILURE() << "level-set is not refused";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::configuration);
-    EXPECT_EQ(error.message(), left_out_message("openvdb", "the backend 'offset'"));
+    EXPECT_EQ(error.message(), left_out_message("openvdb", "the backend 'level-set'"));
     EXPECT_EQ(error.advice(), left_out_advice("openvdb"));
   }
 }

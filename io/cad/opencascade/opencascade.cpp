@@ -832,7 +832,7 @@ void answer(Channel& channel, const Shape& shape) {
 }
 
 void serve(Channel& channel) {
-  bound_what_a_file_takes();
+  bound_what_a_file_takes(std::uint64_t{16} << 30);
   enum class Task : std::int64_t { step, iges, write };
   const auto task = channel.take<Task>();
   const auto file = channel.take_list<std::string>();

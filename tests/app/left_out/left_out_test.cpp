@@ -71,14 +71,14 @@ TEST(LeftOut, BackendsAreRefusedByName) {
   const SampleInput input;
   const bool there = has_part("openvdb");
   const ProgramResult list = run_program({"list", "backends"}),
-                      r = run_program({"run", input.inp().string(), "--rail-backend", "offset", "--resolution", "2"});
+                      r = run_program({"run", input.inp().string(), "--rail-backend", "level-set", "--resolution", "2"});
   EXPECT_THAT(list.out, HasSubstr("\nmesh-flat\n"));  // whether there is Embree or not
   EXPECT_THAT(list.out,
-              HasSubstr(there ? "\noffset\n" : "offset - left out of this build: " + left_out_advice("openvdb")));
+              HasSubstr(there ? "\nlevel-set\n" : "level-set - left out of this build: " + left_out_advice("openvdb")));
   EXPECT_EQ(r.err.find("leaves out") == std::string::npos, there) << r.err;
   if (there) return;
   EXPECT_EQ(r.status, 2);
-  EXPECT_THAT(r.err, AllOf(HasSubstr(left_out_message("openvdb", "the backend 'offset'")),
+  EXPECT_THAT(r.err, AllOf(HasSubstr(left_out_message("openvdb", "the backend 'level-set'")),
                            HasSubstr(left_out_advice("openvdb"))));
 }
 
@@ -88,7 +88,7 @@ TEST(LeftOut, ModulesThatAreNotInstalledAreNamed) {
   const std::string inp = input.inp().string(), step = TREADMARK_SOURCE_DIR "/tests/io/cad/data/rail.step";
   setenv("TREADMARK_MODULES", "/nowhere", 1);
   for (const auto& [part, arguments] :
-       {std::pair{"openvdb", std::vector<std::string>{"run", inp, "--rail-backend", "offset", "--resolution", "2"}},
+       {std::pair{"openvdb", std::vector<std::string>{"run", inp, "--rail-backend", "level-set", "--resolution", "2"}},
         std::pair{"cad", std::vector<std::string>{"check", step}}}) {
     if (!has_part(part)) continue;
     const ProgramResult r = run_program(arguments);

@@ -11,7 +11,6 @@
 #include "treadmark/backends/analytic/defects/moving_section.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark {
 namespace {
@@ -87,7 +86,6 @@ TEST(MovingSection, SplinesThroughItsSlicesFollowItExactly) {
 }
 
 TEST(MovingSection, EveryBackendButTheFormulasCanRepresentIt) {
-  TREADMARK_NEEDS("openvdb");
   Region region;
   region.u_min = 0.17;
   region.u_max = 0.23;
@@ -105,7 +103,6 @@ TEST(MovingSection, EveryBackendButTheFormulasCanRepresentIt) {
 }
 
 TEST(MovingSection, OffsetsOfAWingThatMovesFarAsideFollowIt) {
-  TREADMARK_NEEDS("openvdb");
   const NaturalSurface natural = create_natural(moving(wing()));
   Region region;
   region.u_min = 0.0;
@@ -149,7 +146,6 @@ double farthest_off(const Surface& moved, const Surface& section, const analytic
 }
 
 TEST(MovingSection, OffsetsOfAWingReachDownItsSides) {
-  TREADMARK_NEEDS("openvdb");
   const NaturalSurface natural = create_natural(moving(wing()));
   const NaturalSurface section = create_natural({Body::rail, 0.0, StandardProfile{"60E1"}, {}});
   Region region;
@@ -168,7 +164,6 @@ TEST(MovingSection, OffsetsOfAWingReachDownItsSides) {
 }
 
 TEST(MovingSection, OffsetsKeepFeaturesThatEndBetweenSlices) {
-  TREADMARK_NEEDS("openvdb");
   // two heads side by side; the second one ends between x = 0.1 m and 0.11 m
   SliceSet set;
   set.name = "two heads";
@@ -298,7 +293,6 @@ TEST(Kinks, TheSurfaceTurnsSharplyAlongThem) {
 }
 
 TEST(Crossing, OffsetsShowNothingThroughTheSideOfTheWing) {
-  TREADMARK_NEEDS("openvdb");
   const NaturalSurface crossing =
       join_surfaces({part(nose(), {0.0, -0.02, 0.0}, "", 0.0), part(wing(), {0.0, 0.016, 0.0}, "", 0.0)});
   Region region;

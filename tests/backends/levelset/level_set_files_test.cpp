@@ -82,6 +82,11 @@ TEST_F(LevelSetFiles, AreReadHoweverTheirValuesArePacked) {
     }
 }
 
+TEST_F(LevelSetFiles, MayHoldDoubles) {
+  write({openvdb::DoubleGrid::Ptr(new openvdb::DoubleGrid(*ball_))});
+  expect_ball({1e-3, 2e-3, 3e-3}, 1e-3 * kRadius, kClose);
+}
+
 TEST_F(LevelSetFiles, LieWhereTheirTransformSays) {
   ball_->transform().postScale(0.5);
   ball_->transform().postRotate(0.4, openvdb::math::X_AXIS);
@@ -116,10 +121,10 @@ TEST_F(LevelSetFiles, WhatIsNoneIsNamed) {
   ball_->setGridClass(openvdb::GRID_UNKNOWN);
   write({ball_});
   EXPECT_THAT(refusal(), HasSubstr("no level set, but a grid 'ball'"));
-  const auto big = openvdb::DoubleGrid::create(1.5);
-  big->setGridClass(openvdb::GRID_LEVEL_SET);
-  write({big});
-  EXPECT_THAT(refusal(), HasSubstr("single or half precision"));
+  const auto whole = openvdb::Int32Grid::create(1);
+  whole->setGridClass(openvdb::GRID_LEVEL_SET);
+  write({whole});
+  EXPECT_THAT(refusal(), HasSubstr("single, half or double precision"));
   const auto empty = FloatGrid::create(1.5f);
   empty->setGridClass(openvdb::GRID_LEVEL_SET);
   write({empty});

@@ -7,6 +7,7 @@
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/offset/sparse_offsets.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/tests/support/parts.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::offset {
@@ -29,6 +30,7 @@ OffsetFile through_a_file(double step, const fs::path& file) {
 }
 
 TEST(OffsetFileSteps, FineOnesAreKeptAndWhatVdbCannotHoldIsRefused) {
+  TREADMARK_NEEDS("openvdb");
   const testing::TemporaryFolder folder;
   const fs::path file = folder.path() / "fine.vdb";
   for (const double step : {1e-2, 1e-3, 1e-5, 3e-6}) {

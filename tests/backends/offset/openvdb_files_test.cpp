@@ -5,11 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <openvdb/io/File.h>
+#include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetSphere.h>
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -98,6 +100,23 @@ TEST_F(OpenVdbFiles, AreFoundUnderAnyNameAndBesideOtherGrids) {
   }
 }
 
+TEST_F(OpenVdbFiles, MayBeStreamsShareTheirTreesAndHoldDoubles) {
+  const openvdb::DoubleGrid::Ptr doubles(new openvdb::DoubleGrid(*grid_));
+  write({doubles});
+  expect_the_same();
+  const GridBase::Ptr shared = grid_->copyGrid();  // of the same tree
+  shared->removeMeta("format");
+  shared->setName("another name for it");
+  for (const openvdb::GridPtrVec& grids : {openvdb::GridPtrVec{grid_, shared}, {shared, grid_}}) {
+    write(grids);
+    expect_the_same();
+  }
+  std::ofstream to(path_, std::ios::binary);
+  openvdb::io::Stream(to).write(openvdb::GridPtrVec{shared, grid_});  // says nowhere where a grid begins
+  to.close();
+  expect_the_same();
+}
+
 TEST_F(OpenVdbFiles, LieWhereTheirTransformSays) {
   grid_->setTransform(grid_->transform().copy());
   grid_->transform().postTranslate({0.005, -0.002, 0.0});
@@ -130,6 +149,10 @@ TEST_F(OpenVdbFiles, OfOtherKindsAreNamed) {
   write({plain});
   EXPECT_THAT(refusal(), HasSubstr("'mine' without the entries that say over which base"));
   grid_->setGridClass(openvdb::GRID_UNKNOWN);
+  const auto whole = openvdb::Int32Grid::create(0);
+  whole->setName("treadmark_offsets");
+  write({whole});
+  EXPECT_THAT(refusal(), HasSubstr("single, half or double precision numbers, not Tree_int32_5_4_3"));
   write({grid_, grid_->deepCopyGrid()});
   EXPECT_THAT(refusal(), HasSubstr("several grids of offsets"));
   write({});

@@ -4,6 +4,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <random>
@@ -13,6 +14,7 @@
 #include "treadmark/backends/offset/sparse_offsets.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/backends/offset/wheel_with_flat.hpp"
+#include "treadmark/tests/support/parts.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::testing {
@@ -52,6 +54,7 @@ class VdbFile : public ::testing::Test {
     return -1;
   }
   static constexpr int kInputData = static_cast<int>(ErrorKind::input_data);
+  void SetUp() override { TREADMARK_NEEDS("openvdb"); }
   const TemporaryFolder folder_;
   const fs::path path_ = folder_.path() / "offsets.vdb";
 };
@@ -117,7 +120,7 @@ TEST_F(VdbFile, RefusesMissingEmptyForeignAndCutFiles) {
   offset::write_vdb(path_, wheel());
   const std::string good = bytes();
   EXPECT_EQ(kind(), -1);
-  for (std::size_t n = 0; n < good.size(); n += 1 + good.size() / 97) {
+  for (std::size_t n = 0; n < good.size(); n += 1 + good.size() / 41) {
     put(good.substr(0, n));
     EXPECT_EQ(kind(), kInputData) << n << " bytes";
   }
@@ -159,13 +162,7 @@ std::string edited(std::string data, const std::string& from, const std::string&
   return sealed(data.replace(at, from.size(), to));
 }
 
-long peak_kilobytes() {
-  rusage use{};
-  getrusage(RUSAGE_SELF, &use);
-  return use.ru_maxrss;
-}
-
-// Whoever makes a hostile file makes a check sum that fits.
+// Whoever makes a hostile file makes a check sum that fits. OpenVDB meets it in a process of its own, which may end.
 TEST_F(VdbFile, HostileSizesCostNoMemory) {
   constexpr long kMost = 1000000;  // [kB], also with sanitizers; a single length that is believed takes 4 GB
   const OffsetMap map{"map", {-0.1, -0.02, 0.01, 0.002, 21, 21}, std::vector<float>(441, 1e-4f)};
@@ -173,7 +170,6 @@ TEST_F(VdbFile, HostileSizesCostNoMemory) {
   offset::write_vdb(path_, {offsets, {Body::rail, 0.0, StandardProfile{"60E1"}, {}}});
   const std::string good = bytes();
   const std::size_t size = good.size() - 24;
-  const long before = peak_kilobytes();
   const auto read_damaged = [&](std::size_t at, std::size_t count, char byte) {
     std::string bad = good;
     bad.replace(at, count, count, byte);
@@ -182,13 +178,16 @@ TEST_F(VdbFile, HostileSizesCostNoMemory) {
     EXPECT_TRUE(found == -1 || found == kInputData) << count << " bytes at " << at;
   };
   std::mt19937 random(7);
-  for (std::size_t at = 8; at < 1500; ++at) read_damaged(at, 4, at % 2 == 0 ? '\xff' : '\x7f');
-  for (std::size_t at = 8; at < 1500; at += 8) read_damaged(at, 8, '\0');
-  for (int trial = 0; trial < 500; ++trial) {
+  for (std::size_t at = 8; at < 1500; at += 23) read_damaged(at, 4, at % 2 == 0 ? '\xff' : '\x7f');
+  for (std::size_t at = 8; at < 1500; at += 200) read_damaged(at, 8, '\0');
+  for (int trial = 0; trial < 60; ++trial) {
     const std::size_t count = 1 + random() % 600, at = random() % (size - count);
     read_damaged(at, count, static_cast<char>(random() % 3 == 0 ? random() % 256 : 255));
   }
-  EXPECT_LT(peak_kilobytes() - before, kMost);
+  rusage own{}, programs{};
+  getrusage(RUSAGE_SELF, &own);
+  getrusage(RUSAGE_CHILDREN, &programs);
+  EXPECT_LT(std::max(own.ru_maxrss, programs.ru_maxrss), kMost);
 }
 
 TEST_F(VdbFile, RefusesEntriesThatMakeNoSense) {

@@ -21,8 +21,7 @@ import importlib.metadata, treadmark as tm
 rail = tm.Surface.standard("60E1")
 print(importlib.metadata.version("treadmark"), tm.__version__, tm.__file__)
 print(tm.Pair(rail, tm.Surface.standard("S1002"), tm.Problem(vertical_force=80e3, dx=2e-3, ds=2e-3)).solve().status)
-if tm.parts()["openvdb"]:
-    print(rail.represent("offset").backend)
+print(rail.represent("offset").backend)
 """
 
 
@@ -44,4 +43,4 @@ def test_a_wheel_in_a_fresh_environment(tmp_path):
     python = tmp_path / "fresh" / "bin" / "python"
     told(tmp_path, python, "-m", "pip", "install", "--no-index", wheel)
     versions, status, *backend = told(tmp_path, python, "-c", WORK).splitlines()
-    assert versions.startswith(f"{tm.__version__} {tm.__version__} {tmp_path}") and status == "ok" and backend in ([], ["offset"])
+    assert versions.startswith(f"{tm.__version__} {tm.__version__} {tmp_path}") and status == "ok" and backend == ["offset"]
