@@ -50,7 +50,7 @@ struct NaturalSurface {
 /// other body, defects that make no sense; Error(input_data) when points, slices or triangles cannot be used.
 NaturalSurface create_natural(SurfaceSpec spec);
 
-/// Offsets over their base from a .vdb file. Errors: Error(input_data) for a file that is not one of ours.
+/// Offsets over their base from a .vdb or .nvdb file. Errors: Error(input_data) for a file that is not one of ours.
 NaturalSurface read_offset_surface(const std::filesystem::path& file);
 
 /// Which representation, at what resolution, where.
@@ -120,9 +120,9 @@ SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted, 
 /// splines, else "nurbs". Given splines are not sampled unless a resolution or another backend is asked for.
 std::vector<SplineSurface> to_splines(const NaturalSurface& natural, const Representation& wanted,
                                       Sampled* sampled = nullptr);
-/// The same as offsets over their base in a .vdb file. base: what the offsets add to, a constant section of the same
-/// body and radius; null: the section without defects, or the median one. notes: for the head of the file. Errors also:
-/// Error(configuration) for a file that cannot be written.
+/// The same as offsets over their base in a .vdb or .nvdb file. base: what the offsets add to, a constant section of
+/// the same body and radius; null: the section without defects, or the median one. notes: for the head of the file.
+/// Errors also: Error(configuration) for a file that cannot be written.
 void write_offsets(const std::filesystem::path& file, const NaturalSurface& natural, const Representation& wanted,
                    Sampled* sampled = nullptr, const SurfaceSpec* base = nullptr, const std::string& notes = {});
 

@@ -37,7 +37,9 @@ endmacro()
 treadmark_part(embree TREADMARK_WITH_EMBREE "Embree" "libembree-dev"
   "Lists of lines through triangles (backends mesh and mesh-flat) by Embree 3 or 4 instead of our own tree")
 treadmark_part(openvdb TREADMARK_WITH_OPENVDB "OpenVDB" "libopenvdb-dev and libboost-iostreams-dev"
-  "Offsets over a base (backends offset, offset-quadratic and offset-bilinear, .vdb files) and level sets (level-set), with OpenVDB")
+  "Level sets (backend level-set) and .vdb files, also of offsets over a base, with OpenVDB")
+treadmark_part(nanovdb TREADMARK_WITH_NANOVDB "NanoVDB" "libnanovdb-dev"
+  "Offsets over a base that are evaluated where they lie in a file (.nvdb), without OpenVDB, with NanoVDB")
 treadmark_part(cad TREADMARK_WITH_OPENCASCADE "OpenCASCADE" "libocct-data-exchange-dev"
   "Surfaces of CAD (.step and .iges files), with OpenCASCADE")
 treadmark_part(hdf5 TREADMARK_WITH_HDF5 "HDF5" "libhdf5-dev" "Files of fields and histories (.h5), with HDF5")

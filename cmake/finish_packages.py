@@ -23,7 +23,8 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Headers that are compiled into what the packages hold, the Debian packages that they come from, and which of ours hold them: what is
 # linked with all of Treadmark (None), or one.
 HEADERS = {"Eigen": ("libeigen3-dev", None), "JSON for Modern C++": ("nlohmann-json3-dev", None), "CLI11": ("libcli11-dev", "treadmark"),
-           "nanoflann": ("libnanoflann-dev", None), "CGAL": ("libcgal-dev", None), "OpenVDB": ("libopenvdb-dev", "treadmark-openvdb")}
+           "nanoflann": ("libnanoflann-dev", None), "CGAL": ("libcgal-dev", None), "OpenVDB": ("libopenvdb-dev", "treadmark-openvdb"),
+           "NanoVDB": ("libnanovdb-dev", None)}
 SITE = {"Furo": ("furo", "MIT"), "Sphinx": ("sphinx-common", "BSD-2-Clause")}  # style sheets and scripts of the documents
 # By source package, beside those of the libraries in the program's own list.
 LICENCES = {"glibc": "LGPL-2.1-or-later", "gcc-12": "GPL-3.0-or-later WITH GCC-exception-3.1", "numpy": "BSD-3-Clause",

@@ -9,7 +9,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build ccache git ca-certificates python3
   libeigen3-dev libtbb-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libhdf5-dev zlib1g-dev libexpat1-dev libzip-dev libnanoflann-dev libnlopt-dev
-  libembree-dev libocct-data-exchange-dev libopenvdb-dev libboost-iostreams-dev
+  libembree-dev libocct-data-exchange-dev libopenvdb-dev libboost-iostreams-dev libnanovdb-dev
   pybind11-dev python3-dev python3-numpy
   libgtest-dev libgmock-dev libbenchmark-dev libboost-dev openmpi-bin
 )

@@ -143,7 +143,7 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
   if (io::is_writable_profile(options.output)) {
     if (!options.offsets.empty())
       throw Error(ErrorKind::configuration, "deviations on a grid cannot be written as one profile", {options.output},
-                  "write triangles, slices or offsets: .ply .stl .obj .off .slcs .slcw .vdb");
+                  "write triangles, slices or offsets: .ply .stl .obj .off .slcs .slcw .vdb .nvdb");
     std::cout << options.output << ": "
               << app::convert_profile(options.input, options.output, settings, options.profile) << '\n';
     return tell_doubts(options, settings);
@@ -169,13 +169,14 @@ Command add_convert(CLI::App& verb) {
   auto options = std::make_shared<ConvertOptions>();
   verb.add_option(
           "IN", options->input,
-          "Profile, slices, triangles (.ply .stl .obj .off), CAD (.step .iges), splines (.xml), offsets (.vdb), "
+          "Profile, slices, triangles (.ply .stl .obj .off), CAD (.step .iges), splines (.xml), offsets (.vdb .nvdb), "
           "a name of 'treadmark list profiles', a case file, or with --at the simulation.h5 of a simulation")
       ->required()
       ->type_name(kProfileName);
-  verb.add_option("OUT,-o,--output", options->output,
-                  ".ply .stl .obj .off, .vtp (ParaView, in m), .slcs .slcw, .vdb, .step, .xml, or a profile: .prr .prw "
-                  ".ban .whl .csv; of a case file also .inp (CONTACT) or .toml: its cases")
+  verb.add_option(
+          "OUT,-o,--output", options->output,
+          ".ply .stl .obj .off, .vtp (ParaView, in m), .slcs .slcw, .vdb, .nvdb, .step, .xml, or a profile: .prr .prw "
+          ".ban .whl .csv; of a case file also .inp (CONTACT) or .toml: its cases")
       ->check(is_output(true))
       ->required();
   verb.add_option("--body", options->body, "wheel or rail, where the input does not tell")

@@ -100,7 +100,7 @@ Command add_import(CLI::App& verb) {
                       "), several files = several passes; or a gridded map of deviations (.csv .asc)");
   add_output(
       verb, "-o,--output", options->outputs,
-      "Surface file: .slcs .slcw (spline), .ply .stl .obj .off (mesh), .vdb (offset); may be given several times",
+      "Surface file: .slcs .slcw (spline), .ply .stl .obj .off (mesh), .vdb .nvdb (offset); may be given several times",
       "FILE")
       ->allow_extra_args(false);
   add_output(verb, "--report", options->report_folder,

@@ -102,7 +102,7 @@ Command add_scan(CLI::App& verb) {
     verb.add_option(name, value, text)->delimiter(',')->expected(2)->type_name("FROM,TO");
   };
   verb.add_option("SURFACE", options->surface,
-                  "Profile, slices, triangles (.ply .stl .obj .off), offsets (.vdb), or a case file")
+                  "Profile, slices, triangles (.ply .stl .obj .off), offsets (.vdb .nvdb), or a case file")
       ->required();
   add_output(verb, "-o,--output", options->cloud, "File of points: " + io::written_scan_extensions(), "FILE")
       ->required();

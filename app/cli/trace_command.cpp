@@ -84,7 +84,7 @@ int trace_command(const TraceOptions& options, const CommonOptions& common) {
 
 Command add_trace(CLI::App& verb) {
   auto options = std::make_shared<TraceOptions>();
-  verb.add_option("FILE", options->file, "Profile, slices, triangles, offsets (.vdb) or case file")->required();
+  verb.add_option("FILE", options->file, "Profile, slices, triangles, offsets (.vdb .nvdb) or case file")->required();
   verb.add_option("-o,--output", options->output, "CSV file; default: standard output")
       ->check(is_output(true))
       ->type_name("FILE");

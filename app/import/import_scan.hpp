@@ -13,8 +13,9 @@
 namespace treadmark::app {
 
 struct ImportRequest {
-  std::vector<std::filesystem::path> scans;    ///< several files are several passes; or one gridded map of deviations
-  std::vector<std::filesystem::path> outputs;  ///< .slcs .slcw (spline), .ply .stl .obj .off (mesh), .vdb (offset)
+  std::vector<std::filesystem::path> scans;  ///< several files are several passes; or one gridded map of deviations
+  std::vector<std::filesystem::path>
+      outputs;  ///< .slcs .slcw (spline), .ply .stl .obj .off (mesh), .vdb .nvdb (offset)
   io::ImportSettings settings;
   std::filesystem::path truth;  ///< what `treadmark scan --truth` wrote, or the true surface; empty: not known
 };

@@ -283,14 +283,15 @@ void compare(const std::filesystem::path& file, const FittedScan& fit, const io:
 void check_outputs(const ImportRequest& request) {
   if (request.outputs.empty())
     throw Error(ErrorKind::configuration, "there is nothing to write", {},
-                "say -o with a file *.slcs, *.slcw, *.ply, *.stl, *.obj, *.off or *.vdb");
+                "say -o with a file *.slcs, *.slcw, *.ply, *.stl, *.obj, *.off, *.vdb or *.nvdb");
   const Body body = body_of(request);
   for (const auto& file : request.outputs) {
     const std::string extension = io::extension_of(file);
     if (!io::is_mesh_file(file) && !io::is_slices_file(file) && !is_offset_file(file))
-      throw Error(
-          ErrorKind::configuration, fmt::format("surfaces cannot be written to files '{}'", extension), {file.string()},
-          "use .slcs (rail) or .slcw (wheel) for splines, .ply, .stl, .obj or .off for triangles, .vdb for offsets");
+      throw Error(ErrorKind::configuration, fmt::format("surfaces cannot be written to files '{}'", extension),
+                  {file.string()},
+                  "use .slcs (rail) or .slcw (wheel) for splines, .ply, .stl, .obj or .off for triangles, .vdb or "
+                  ".nvdb for offsets");
     if (io::is_slices_file(file) && extension != (body == Body::wheel ? ".slcw" : ".slcs"))
       throw Error(ErrorKind::configuration,
                   fmt::format("slices of a {} are written to a file *{}", body_name(body),

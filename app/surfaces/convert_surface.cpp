@@ -86,10 +86,10 @@ Converted write_checked(NaturalSurface source, const std::optional<AddedTable>& 
   const bool triangles = view || io::is_mesh_file(output), slices = io::is_slices_file(output),
              offsets = is_offset_file(output), cad = io::is_step_file(output), splines = io::is_spline_file(output);
   if (!triangles && !slices && !offsets && !cad && !splines)
-    throw Error(ErrorKind::configuration, fmt::format("surfaces cannot be written to files '{}'", extension),
-                {output.string()},
-                "use .ply, .stl, .obj, .off or .vtp (ParaView) for triangles, .slcs or .slcw for slices, .vdb for "
-                "offsets, .step for CAD, .xml for splines");
+    throw Error(
+        ErrorKind::configuration, fmt::format("surfaces cannot be written to files '{}'", extension), {output.string()},
+        "use .ply, .stl, .obj, .off or .vtp (ParaView) for triangles, .slcs or .slcw for slices, .vdb or .nvdb for "
+        "offsets, .step for CAD, .xml for splines");
   Converted out;
   out.source = std::move(source);
   out.body = out.source.spec.body;

@@ -25,7 +25,7 @@ MovingSection motion_of(const io::CrossingInput& crossing);
 /// key moves along the track, which go on by design.
 std::optional<std::pair<double, double>> measured_range(const NaturalSurface& surface, const io::SurfaceSource& source);
 
-/// Whether the name ends like a file of offsets: .vdb.
+/// Whether the name ends like a file of offsets: .vdb .nvdb.
 bool is_offset_file(const std::filesystem::path& file);
 
 }  // namespace treadmark::app

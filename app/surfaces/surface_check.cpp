@@ -70,8 +70,9 @@ void say_kind(const io::SurfaceSource& source, const NaturalSurface& natural, Fa
   } else if (is_offset_file(given.file)) {
     const offset::OffsetFile content = offset::read_vdb(given.file);
     const auto* standard = std::get_if<StandardProfile>(&content.base.shape);
-    kind = fmt::format("offsets (OpenVDB): {} voxels over {}", offset::active_count(*content.offsets),
-                       standard != nullptr ? standard->name : "a section of its own");
+    kind = fmt::format(
+        "offsets ({}): {} voxels over {}", io::extension_of(given.file) == ".nvdb" ? "NanoVDB" : "OpenVDB",
+        offset::active_count(*content.offsets), standard != nullptr ? standard->name : "a section of its own");
     unit = "m, as such files have it";
   } else {
     kind = fmt::format("splines (XML of G+Smo), backend {}", natural.surface->backend());

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/offset/coefficients.hpp"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <vector>
@@ -88,6 +89,11 @@ class Strip {
 };
 
 }  // namespace
+
+float smallest_coefficient(const SparseOffsets& offsets) {
+  constexpr float kFinest = 1e-13f;  // [m]
+  return std::max(kFinest, static_cast<float>(1e-3 * offsets.tolerance));
+}
 
 SheetGrid spline_coefficients(const SparseOffsets& offsets, int degree, float smallest) {
   const std::vector<double> h = inverse_filter(degree);

@@ -12,5 +12,7 @@ namespace treadmark::offset {
 /// [m] are dropped.
 SheetGrid spline_coefficients(const SparseOffsets& offsets, int degree, float smallest);
 constexpr int kSpread = 14;
+/// Below which they do not count beside the tolerance of the offsets [m].
+float smallest_coefficient(const SparseOffsets& offsets);
 
 }  // namespace treadmark::offset

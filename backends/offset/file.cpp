@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "treadmark/backends/offset/make.hpp"
+#include "treadmark/backends/offset/nano_file.hpp"
 #include "treadmark/backends/offset/sheet_grid.hpp"
 #include "treadmark/backends/offset/vdb_file.hpp"
 #include "treadmark/core/error.hpp"
@@ -37,13 +38,6 @@ namespace fs = std::filesystem;
 constexpr std::array<char, 8> kMark = {'T', 'M', 'K', 'S', 'U', 'M', '0', '1'};
 constexpr std::size_t kTrailer = 24;
 constexpr std::array<char, 8> kVdbMagic = {' ', 'B', 'D', 'V', 0, 0, 0, 0};
-
-/// FNV-1a (Fowler, Noll, Vo) over 64 bits.
-std::uint64_t sum_of(const char* data, std::size_t size) {
-  std::uint64_t h = 14695981039346656037ull;
-  for (std::size_t i = 0; i < size; ++i) h = (h ^ static_cast<unsigned char>(data[i])) * 1099511628211ull;
-  return h;
-}
 
 /// In a VDB file a random number as text follows its mark, three numbers for versions and a flag, so that no two files
 /// are alike. Here it follows from the content: equal offsets give equal files.
@@ -92,7 +86,20 @@ std::string take_transform(const SheetFile& sheet, SheetFrame& f, const fs::path
   return remark;
 }
 
+/// In place of OpenVDB's, by the end of its name.
+bool is_nano(const fs::path& file) {
+  std::string end = file.extension().string();
+  for (char& c : end)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return end == ".nvdb";
+}
+
 }  // namespace
+
+std::uint64_t sum_of(const char* data, std::size_t size, std::uint64_t before) {
+  for (std::size_t i = 0; i < size; ++i) before = (before ^ static_cast<unsigned char>(data[i])) * 1099511628211ull;
+  return before;
+}
 
 VdbFile open_vdb(const fs::path& file, const VdbWords& words) {
   require_file(file, "VDB file", ErrorKind::input_data);
@@ -130,6 +137,7 @@ void write_vdb(const fs::path& file, const OffsetFile& content) {
   sheet.u0 = f.u0, sheet.y0 = f.y0, sheet.du = f.du, sheet.dy = f.dy;
   sheet.metadata = to_metadata(*content.offsets, content.base);
   if (!content.notes.empty()) sheet.metadata["notes"] = content.notes;
+  if (is_nano(file)) return write_file(file, nano_bytes(*content.offsets, sheet.metadata));
   std::string bytes = sheet_bytes(content.offsets->grid, sheet);
   name_by_content(bytes);
   append_trailer(bytes);
@@ -137,6 +145,7 @@ void write_vdb(const fs::path& file, const OffsetFile& content) {
 }
 
 OffsetFile read_vdb(const fs::path& file) {
+  if (is_nano(file)) return from_sheet(read_nano(file), file);
   static constexpr VdbWords kWords{"the offsets", "offsets come from treadmark convert or import, as .vdb"};
   return from_sheet(read_sheet(open_vdb(file, kWords)), file);
 }
@@ -157,6 +166,7 @@ OffsetFile from_sheet(SheetFile sheet, const fs::path& file) {
       throw Error(ErrorKind::input_data, "voxels in the VDB file lie beyond the turn", {file.string()});
   }
   offsets->grid = std::move(sheet.grid);
+  offsets->cubic = std::move(sheet.cubic);
   result.offsets = offsets;
   return result;
 }

@@ -58,7 +58,8 @@ std::size_t memory_bytes(const SparseOffsets& offsets);
 std::size_t active_count(const SparseOffsets& offsets);
 
 /// A .vdb file: the offsets as a FloatGrid sheet at k = 0 with its transform, and as metadata units, axes, body,
-/// nominal radius and the base (a constant section: standard profile, arcs or points).
+/// nominal radius and the base (a constant section: standard profile, arcs or points). Or the same as a .nvdb file of
+/// NanoVDB, which is evaluated where it lies, without OpenVDB (nano_file.hpp).
 struct OffsetFile {
   std::shared_ptr<const SparseOffsets> offsets;
   SurfaceSpec base;      ///< without defects; with the errors of the surface over it
@@ -66,9 +67,9 @@ struct OffsetFile {
   std::string remark{};  ///< of reading: a sentence about what another program changed; may be empty
 };
 /// What OpenVDB wrote again is read too: other names of the grid, half precision, packed values, other grids beside it,
-/// a transform that was moved or scaled. Errors: Error(input_data) for a file that is missing, empty, damaged, not VDB,
-/// or holds no offsets, saying what it holds; Error(configuration) for a base that is not a constant section, or a file
-/// that cannot be written.
+/// a transform that was moved or scaled; a .nvdb file only as write_vdb wrote it. The end of the name says which.
+/// Errors: Error(input_data) for a file that is missing, empty, damaged, not VDB, or holds no offsets, saying what it
+/// holds; Error(configuration) for a base that is not a constant section, or a file that cannot be written.
 void write_vdb(const std::filesystem::path& file, const OffsetFile& content);
 OffsetFile read_vdb(const std::filesystem::path& file);
 

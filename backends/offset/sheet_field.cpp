@@ -119,7 +119,8 @@ class SheetField final : public displacement::OffsetField, public std::enable_sh
  public:
   explicit SheetField(std::shared_ptr<const SparseOffsets> offsets)
       : offsets_(std::move(offsets)),
-        own_(kDegree == 1 ? SheetGrid{} : spline_coefficients(*offsets_, kDegree, smallest())),
+        own_(kDegree == 1 || lent() ? SheetGrid{}
+                                    : spline_coefficients(*offsets_, kDegree, smallest_coefficient(*offsets_))),
         directory_(grid()),
         frame_(offsets_->frame),
         ranges_(grid(), directory_, frame_, kDegree),
@@ -201,7 +202,7 @@ class SheetField final : public displacement::OffsetField, public std::enable_sh
   }
 
   std::size_t memory_bytes() const override {
-    return sizeof(*this) + offsets_->grid.memory_bytes() + (kDegree == 1 ? 0 : own_.memory_bytes()) +
+    return sizeof(*this) + offsets_->grid.memory_bytes() + (kDegree == 1 ? 0 : grid().memory_bytes()) +
            directory_.memory_bytes() + ranges_.memory_bytes() + blocks_.size() * sizeof(BlockKey);
   }
 
@@ -212,9 +213,9 @@ class SheetField final : public displacement::OffsetField, public std::enable_sh
     const auto inside = static_cast<int>(parameter % (kBlockI * kBlockJ));
     return {block.bi * kBlockI + inside / kBlockJ, block.bj * kBlockJ + inside % kBlockJ};
   }
-  static constexpr float kFinest = 1e-13f;  ///< [m]
-  float smallest() const { return std::max(kFinest, static_cast<float>(1e-3 * offsets_->tolerance)); }
-  const SheetGrid& grid() const { return kDegree == 1 ? offsets_->grid : own_; }
+  /// Whether the coefficients came with the offsets.
+  bool lent() const { return kDegree == 3 && offsets_->cubic; }
+  const SheetGrid& grid() const { return kDegree == 1 ? offsets_->grid : lent() ? *offsets_->cubic : own_; }
   /// Whether all columns of a whole turn have the same values.
   bool alike_all_round() const {
     if (frame_.turn == 0) return false;
@@ -254,7 +255,7 @@ class SheetField final : public displacement::OffsetField, public std::enable_sh
   }
 
   std::shared_ptr<const SparseOffsets> offsets_;
-  SheetGrid own_;  ///< coefficients; of degree 1 they are the offsets themselves
+  SheetGrid own_;  ///< coefficients, unless they are lent; of degree 1 they are the offsets themselves
   BlockDirectory directory_;
   SheetFrame frame_;
   RangePyramid ranges_;

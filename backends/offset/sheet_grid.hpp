@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,6 +56,7 @@ struct SheetFile {
   SheetGrid grid;
   double u0 = 0.0, y0 = 0.0, du = 1.0, dy = 1.0;
   Metadata metadata;
+  std::optional<SheetGrid> cubic = {};  ///< as of SparseOffsets
 };
 /// The bytes of a VDB file. Errors: Error(configuration) for steps that such a file cannot hold; those of
 /// start_openvdb.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/offset/sheet_grid.hpp"
@@ -44,9 +45,10 @@ struct SheetFrame {
 class SparseOffsets {
  public:
   SheetFrame frame;
-  double tolerance = 0.0;       ///< [m]
-  double nominal_radius = 0.0;  ///< wheel [m]
-  SheetGrid grid;               ///< values [m]
+  double tolerance = 0.0;               ///< [m]
+  double nominal_radius = 0.0;          ///< wheel [m]
+  SheetGrid grid;                       ///< values [m]
+  std::optional<SheetGrid> cubic = {};  ///< coefficients of the cubic spline, where a file has brought them [m]
 };
 
 }  // namespace treadmark::offset

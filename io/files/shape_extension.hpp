@@ -39,7 +39,7 @@ inline constexpr ShapeExtension kShapeExtensions[] = {
     {".slcs", kSlicesFile, Body::rail}, {".slcw", kSlicesFile, Body::wheel},
     {".ply", kTriangleFile | kPointFile}, {".stl", kTriangleFile | kPointFile},
     {".obj", kTriangleFile | kPointFile}, {".off", kTriangleFile | kPointFile},
-    {".xml", kSplineFile}, {".vdb", kOffsetFile},
+    {".xml", kSplineFile}, {".vdb", kOffsetFile}, {".nvdb", kOffsetFile},
     {".step", kCadFile}, {".stp", kCadFile}, {".iges", kCadFile}, {".igs", kCadFile},
     {".las", kPointFile}, {".laz", kPointFile, {}, false}, {".pcd", kPointFile}, {".e57", kPointFile},
     {".ptx", kPointFile}, {".pts", kPointFile}, {".xyz", kPointFile}, {".xyzrgb", kPointFile}, {".xyzn", kPointFile}};

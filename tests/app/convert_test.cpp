@@ -36,13 +36,14 @@ INSTANTIATE_TEST_SUITE_P(
     Kinds, Convert,
     ::testing::Values(std::tuple{std::string("wheel.ply"), 2e-3}, std::tuple{std::string("wheel.stl"), 2e-3},
                       std::tuple{std::string("wheel.obj"), 2e-3}, std::tuple{std::string("wheel.off"), 2e-3},
-                      std::tuple{std::string("wheel.vdb"), 1e-3}, std::tuple{std::string("wheel.slcw"), 1e-3}),
+                      std::tuple{std::string("wheel.vdb"), 1e-3}, std::tuple{std::string("wheel.nvdb"), 1e-3},
+                      std::tuple{std::string("wheel.slcw"), 1e-3}),
     [](const auto& which) { return std::get<0>(which.param).substr(6); });
 
 TEST_P(Convert, TheFileGivesTheSameContact) {
   const auto [name, tolerance] = GetParam();
-  if (name.ends_with(".vdb")) {
-    TREADMARK_NEEDS("openvdb");
+  if (name.ends_with("vdb")) {
+    TREADMARK_NEEDS(name.ends_with(".nvdb") ? "nanovdb" : "openvdb");
   }
   const treadmark::testing::SampleInput input;
   input.write("flat.toml", flat_case(treadmark::testing::kWheelWithFlat));

@@ -55,7 +55,7 @@ HEAVY = {
     r"expat\.h": "folder",
     r"fftw3\.h": "all",
     r"embree[34]/.*": "backends/mesh/embree_version.hpp",
-    r"openvdb/.*": "folder",
+    r"(openvdb|nanovdb)/.*": "folder",
     r"CGAL/.*": "scans/cgal/",
     r"nanoflann\.hpp": "all",
     r"nlopt\.h(pp)?": "all",

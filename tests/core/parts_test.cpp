@@ -22,7 +22,7 @@ TEST(Parts, AreNamedOnceAndHaveAnOption) {
     EXPECT_TRUE(part.option.starts_with("TREADMARK_")) << part.option;
     EXPECT_EQ(has_part(part.key), part.built);
   }
-  for (const char* key : {"embree", "openvdb", "hdf5", "tbb", "fftw", "cgal", "vehicle", "scans", "report"})
+  for (const char* key : {"embree", "openvdb", "nanovdb", "hdf5", "tbb", "fftw", "cgal", "vehicle", "scans", "report"})
     EXPECT_TRUE(keys.contains(key)) << key;
 }
 

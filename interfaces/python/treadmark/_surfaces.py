@@ -240,7 +240,7 @@ class Surface:
         return dict(zip(("points", "faces"), self.triangles(resolution)))
 
     def save(self, file: Path, resolution: Metre = 0.0) -> None:
-        """Writes triangles (.ply .stl .obj .off), slices (.slcs .slcw) or offsets (.vdb), sampled at a resolution [m]."""
+        """Writes triangles (.ply .stl .obj .off), slices (.slcs .slcw) or offsets (.vdb .nvdb), sampled at a resolution [m]."""
         self._surface.save(pathlib.Path(file), resolution)
 
     @property

@@ -301,7 +301,7 @@ def import_scan(scans: Shape | Sequence[Any], outputs: Path | Sequence[Path], *,
     """From points of a scanner (or a gridded map of deviations) to a surface, as ``treadmark import`` does.
 
     scans: several files are several passes; an array (n, 3) of x, y and z [m] stands for a file, and so do (x, y, deviations) [m] of the shapes
-    (n,), (m,) and (n, m) for that of a map; outputs: .slcs .slcw .ply .stl .obj .off .vdb, read again by Surface.read; settings: a TOML
+    (n,), (m,) and (n, m) for that of a map; outputs: .slcs .slcw .ply .stl .obj .off .vdb .nvdb, read again by Surface.read; settings: a TOML
     file; set: changes of settings, {"scan.body": "wheel"}. Errors: InputError naming the file.
     """
 
