@@ -11,6 +11,11 @@ endif()
 # GCC clears its memory each time that its heap has grown by what a small machine has: with the headers below that takes a tenth of its time.
 add_compile_options("$<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-expand=400;--param=ggc-min-heapsize=1000000>")
 
+# So that a linker can leave out single functions where it is told to (interfaces/fmi); what is made of them is the same.
+if(TREADMARK_HAVE_FMU)
+  add_compile_options(-ffunction-sections -fdata-sections)
+endif()
+
 add_library(treadmark_warnings INTERFACE)
 # Sources that are compiled together see each other's names: only alone can those of a whole file be told to be hidden.
 target_compile_options(treadmark_warnings INTERFACE -Wall -Wextra -Wpedantic

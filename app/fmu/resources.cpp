@@ -8,9 +8,11 @@
 #include <utility>
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
+#include "treadmark/backends/offset/make.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
@@ -34,27 +36,40 @@ class Packer {
   fs::path add(const fs::path& file) {
     const auto known = packed_.find(file);
     if (known != packed_.end()) return known->second;
-    const fs::path place = fs::path("files") / std::to_string(packed_.size() + 1) / file.filename();
+    const fs::path place = next_folder() / file.filename();
     const fs::path source = io::profile_file(file);
     copy(source, place.parent_path() / source.filename());
     return packed_[file] = place;
   }
 
+  /// The same of offsets, which NanoVDB evaluates where they lie: an FMU needs no OpenVDB for them.
+  fs::path add_offsets(const fs::path& file) {
+    const auto known = packed_.find(file);
+    if (known != packed_.end()) return known->second;
+    const fs::path place = (next_folder() / file.filename()).replace_extension(".nvdb");
+    offset::write_vdb(folder_ / place, offset::read_vdb(file));
+    return packed_[file] = place;
+  }
+
   /// Makes the source name its packed files.
   void pack(io::SurfaceSource& source, Body body) {
-    if (source.backend.starts_with("offset") || source.backend == "level-set" || !source.offsets.file.empty() ||
-        std::holds_alternative<io::SolidsInput>(source.geometry))
-      throw Error(ErrorKind::configuration, "FMUs do not take OpenVDB with them, which offsets and level sets need",
-                  source.where,
-                  "choose another backend, or convert the surface to triangles or slices: treadmark convert");
+    const auto refuse = [&](const char* why, const char* advice) {
+      throw Error(ErrorKind::configuration, why, source.where, advice);
+    };
+    if (source.backend == "level-set" || std::holds_alternative<io::SolidsInput>(source.geometry))
+      refuse("FMUs do not take OpenVDB with them, which level sets need",
+             "choose another backend, or convert the surface to triangles or slices: treadmark convert");
+    if (!source.offsets.file.empty())
+      refuse("FMUs do not read tables of deviations",
+             "put them into a file of offsets: treadmark convert SHAPE wheel.nvdb --offsets TABLE");
     for (io::SurfaceSource& part : source.parts) pack(part, body);
     auto* geometry = std::get_if<io::GeometryFile>(&source.geometry);
     if (geometry == nullptr || !source.parts.empty()) return;
-    if (io::can_hold(geometry->file, io::kOffsetFile))
-      throw Error(ErrorKind::configuration, "FMUs do not take OpenVDB with them, which offsets need", source.where,
-                  "convert the surface to triangles or slices: treadmark convert");
     const fs::path original = geometry->file;
-    const fs::path packed = add(original);
+    if (io::is_cad_file(original))
+      refuse("FMUs do not take OpenCASCADE with them, which files of CAD need",
+             "convert the surface to splines, slices or triangles: treadmark convert");
+    const fs::path packed = io::can_hold(original, io::kOffsetFile) ? add_offsets(original) : add(original);
     if (io::is_slices_file(original)) add_profiles(original, packed.parent_path(), body, geometry->options);
     geometry->file = folder_ / packed;
   }
@@ -66,6 +81,7 @@ class Packer {
   }
 
  private:
+  fs::path next_folder() const { return fs::path("files") / std::to_string(packed_.size() + 1); }
   void copy(const fs::path& from, const fs::path& to) const { write_file(folder_ / to, io::read_text(from)); }
 
   /// Those that a file of slices names, beside it.

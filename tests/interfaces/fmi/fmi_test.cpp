@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <string>
@@ -12,13 +13,16 @@
 #include <vector>
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
+#include "treadmark/app/surfaces/convert_surface.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
+#include "treadmark/tests/app/standard_case.hpp"
 #include "treadmark/tests/interfaces/fmi/resources_of.hpp"
+#include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark::testing {
 namespace {
@@ -559,6 +563,40 @@ TEST(Fmi, FilesOfACaseTravelWithIt) {
   }
 }
 
+/// Of a backend, and from files of both libraries.
+TEST(Fmi, OffsetsNeedNoOpenVdb) {
+  TREADMARK_NEEDS("nanovdb");
+  const SampleInput input;
+  input.write("flat.toml", standard_case("2.0", kWheelWithFlat));
+  app::ConvertSettings settings;
+  settings.body = Body::wheel;
+  settings.resolution = 2e-3;
+  settings.range_theta = {-0.28, 0.23};
+  std::vector<std::string> wheels{"backend = \"offset\"\nresolution_mm = 4\n" + kWheelWithFlat};
+  for (const char* name : {"wheel.nvdb", "wheel.vdb"}) {
+    if (!has_part("openvdb") && name == std::string("wheel.vdb")) continue;
+    app::convert_surface(input.folder() / "flat.toml", input.folder() / name, settings);
+    wheels.push_back("shape.file = \"" + std::string(name) + "\"\n");
+  }
+  for (const std::string& given_wheel : wheels) {
+    SCOPED_TRACE(given_wheel);
+    input.write("case.toml", standard_case("2.0", given_wheel));
+    const Fmu fmu(input.folder() / "case.toml", 3);
+    setenv("TREADMARK_MODULES", "/nowhere", 1);
+    const auto it = fmu.open();
+    EXPECT_EQ(it->initialize(), kOk) << it->messages();
+    const std::vector<double> force = it->get("force_on_rail");
+    unsetenv("TREADMARK_MODULES");
+    const io::CaseFile file = io::read_any_case(input.folder() / "case.toml");
+    const auto& given = *app::first_wheelrail_case(file);
+    app::SurfaceStore store;
+    const auto& rail = store.get(given.rail, Body::rail, 0.0, Region{});
+    const auto& wheel = store.get(given.wheel, Body::wheel, given.wheelset.nominal_radius, Region{});
+    wheelrail::Pair pair({rail.represented.surface, wheel.represented.surface, true, wheel.constant_profile()});
+    EXPECT_EQ(force, numbers(pair.solve(app::to_problem(given, wheel.constant_profile())).load.track.force));
+  }
+}
+
 std::string refusal(const std::string& text, bool wheelset = false) {
   try {
     const Fmu fmu(text, 3, wheelset);
@@ -571,9 +609,12 @@ std::string refusal(const std::string& text, bool wheelset = false) {
 TEST(Fmi, WhatCannotBeAnFmuIsRefused) {
   EXPECT_THAT(refusal(case_text("z_mm = 0.9\n", "shift")), HasSubstr("a shift has no time"));
   EXPECT_THAT(refusal(kPressed + "[wheel.x]\n"), HasSubstr("unknown key"));
-  std::string offsets = kPressed;
-  offsets.replace(offsets.find("[wheel]\n"), 8, "[wheel]\nbackend = \"offset\"\n");
-  EXPECT_THAT(refusal(offsets), HasSubstr("OpenVDB"));
+  std::string solid = kPressed, cad = kPressed;
+  solid.replace(solid.find("[wheel]\n"), 8, "[wheel]\nbackend = \"level-set\"\n");
+  EXPECT_THAT(refusal(solid), HasSubstr("OpenVDB"));
+  const std::string rail = "shape.standard = \"60E1\"";
+  cad.replace(cad.find(rail), rail.size(), "shape.file = \"" TREADMARK_SOURCE_DIR "/tests/io/cad/data/rail.step\"");
+  EXPECT_THAT(refusal(cad), HasSubstr("OpenCASCADE"));
   EXPECT_THAT(refusal("[patch]\nnormal_force_N = 1e3\nmx = 10\nmy = 8\ndx_mm = 1\ndy_mm = 1\n[patch.gap]\n"
                       "coefficients_si = [1, 0, 1, 0, 0, 0]\n[case]\nregime = \"none\"\n"),
               HasSubstr("no case of a wheel on a rail"));
