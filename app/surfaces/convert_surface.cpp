@@ -16,6 +16,7 @@
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/app/surfaces/written_surface.hpp"
 #include "treadmark/backends/added_offsets.hpp"
+#include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/spline/spline_gaps.hpp"
 #include "treadmark/backends/tensor_fit.hpp"
 #include "treadmark/core/constants.hpp"
@@ -79,8 +80,10 @@ struct AddedTable {
   OffsetMap table;
 };
 
+/// same: offsets that are written as they are; empty: the source is sampled.
 Converted write_checked(NaturalSurface source, const std::optional<AddedTable>& added,
-                        const std::filesystem::path& output, const ConvertSettings& settings) {
+                        const std::filesystem::path& output, const ConvertSettings& settings,
+                        const std::filesystem::path& same = {}) {
   const std::string extension = io::extension_of(output);
   const bool view = extension == ".vtp";  // only to be looked at
   const bool triangles = view || io::is_mesh_file(output), slices = io::is_slices_file(output),
@@ -136,6 +139,8 @@ Converted write_checked(NaturalSurface source, const std::optional<AddedTable>& 
       out.kind = "offsets";
       if (added)
         write_added_offsets(place, added->below, added->table, wanted);
+      else if (!same.empty())
+        offset::write_vdb(place, offset::read_vdb(same));
       else
         write_offsets(place, out.source, wanted, &sampled);
     }
@@ -182,7 +187,9 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
     added = AddedTable{source, read_offset_table(settings.offsets, source)};
     source = add_offsets(source, added->table);
   }
-  return write_checked(std::move(source), added, output, settings);
+  const bool same = is_offset_file(input) && is_offset_file(output) && !added && settings.resolution == 0.0 &&
+                    !settings.range_x && !settings.range_theta;
+  return write_checked(std::move(source), added, output, settings, same ? input : std::filesystem::path());
 }
 
 }  // namespace treadmark::app

@@ -79,6 +79,25 @@ TEST(ConvertSurface, FromTrianglesToSlicesAndOffsets) {
   }
 }
 
+TEST(ConvertSurface, OffsetsStayWhatTheyAre) {
+  TREADMARK_NEEDS("nanovdb");
+  const treadmark::testing::SampleInput input;
+  input.write("flat.toml", flat_case(treadmark::testing::kWheelWithFlat));
+  ConvertSettings settings;
+  settings.body = Body::wheel;
+  settings.resolution = 2e-3;
+  settings.range_theta = {-0.28, 0.23};
+  convert_surface(input.folder() / "flat.toml", input.folder() / "first.nvdb", settings);
+  std::string before = "first.nvdb";
+  for (const std::string name : {"second.nvdb", "third.vdb", "fourth.nvdb"}) {
+    if (!has_part("openvdb") && (name == "third.vdb" || before == "third.vdb")) continue;
+    const Converted c = convert_surface(input.folder() / before, input.folder() / name, {});
+    EXPECT_EQ(c.fit.height_max, 0.0) << name;
+    before = name;
+  }
+  EXPECT_EQ(input.read(before), input.read("first.nvdb"));
+}
+
 TEST(ConvertSurface, ClosesAWholeWheel) {
   const treadmark::testing::SampleInput input;
   input.write("flat.toml", flat_case(treadmark::testing::kWheelWithFlat));

@@ -18,6 +18,7 @@
 #include "treadmark/core/modules.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
@@ -72,6 +73,10 @@ report::Page solving_page(io::CaseFile file, int number, const Progress& progres
     if (io::is_slices_file(content))
       throw Error(ErrorKind::configuration, "slices name files of their own, which the page does not take along",
                   {content.string()}, "use treadmark run --report");
+    if (io::extension_of(content) == ".vdb")
+      throw Error(ErrorKind::configuration, "the program for browsers has no OpenVDB, which VDB files need",
+                  {content.string()},
+                  "take offsets as .nvdb: treadmark convert; of level sets use treadmark run --report");
     solving.files[io::relative_to(content, folder).generic_string()] = io::profiles::read_text(content, "file", {});
   }
   return live_page(std::make_shared<io::RunResult>(std::move(result)), std::move(solving));

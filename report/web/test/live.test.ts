@@ -108,6 +108,7 @@ const cases: Record<string, string[]> = {
   "no contact": ["wheelset.y_mm=300"],
   "unusual load": ["wheelset.vertical_force_N=2e6"],
   "own file": ["wheel.shape.file=own.csv"],
+  "offsets": ["wheel.shape.file=own.nvdb", "wheelset.pitch_deg=2"],
 };
 
 interface Native {
@@ -120,7 +121,10 @@ test("the program for browsers gives the numbers of the program", { skip }, asyn
     const own = spawnSync(program, ["convert", "S1002", join(folder, "own.csv")]);
     assert.equal(own.status, 0, String(own.stderr));
     const here = await solver();
-    here.addFile("own.csv", readFileSync(join(folder, "own.csv")));
+    writeFileSync(join(folder, "flat.toml"), `${base}wheel.flats = [{ length_mm = 40, depth_mm = 0.5 }]\n`);
+    const offsets = spawnSync(program, ["convert", join(folder, "flat.toml"), join(folder, "own.nvdb"), "--body", "wheel", "--resolution", "2"]);
+    assert.equal(offsets.status, 0, String(offsets.stderr));
+    for (const name of ["own.csv", "own.nvdb"]) here.addFile(name, readFileSync(join(folder, name)));
     for (const [name, changes] of Object.entries(cases))
       await t.test(name, (one) => {
         const { frame, remarks, milliseconds } = here.solve({ toml: base, changes }, null, name);
