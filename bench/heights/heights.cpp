@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <cmath>
+#include <filesystem>
+
+#include "treadmark/backends/create.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/bench/common/refuse.hpp"
 #include "treadmark/bench/common/scene.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parts.hpp"
 
 namespace treadmark::bench {
 namespace {
@@ -82,11 +88,40 @@ void enter_heights(Body body, const char* backend, double resolution) {
   enter("locate", [c](benchmark::State& state) { located(state, c); });
 }
 
+/// A wheel whose offsets lie in a file of NanoVDB, after it gave the heights of the one in memory.
+void mapped(benchmark::State& state, bool tilted) {
+  constexpr double kResolution = 1e-3, kSame = 1e-15;
+  const ThreadLimit one(1);
+  const app::BenchScene& s = scene(Scene::damaged);
+  const app::BenchView& view = s.view(Body::wheel);
+  const OutputFolder folder(std::filesystem::temp_directory_path(), OutputFolder::Old::kept);
+  const std::filesystem::path file = folder.path() / "wheel.nvdb";
+  write_offsets(file, s.natural(Body::wheel), {"offset", kResolution, s.regions.wheel});
+  const auto surface = read_offset_surface(file).surface;
+  const PlaneGrid plane{tilted ? view.tilted.X_SP : view.level.X_SP, view.grid};
+  std::vector<double> z(view.grid.size()), in_memory(z);
+  surface->heights(plane, {z, {}, {}});
+  subject(Scene::damaged, Body::wheel, "offset", kResolution).surface->heights(plane, {in_memory, {}, {}});
+  for (std::size_t k = 0; k < z.size(); ++k)
+    if (std::isnan(z[k]) != std::isnan(in_memory[k]) || std::fabs(z[k] - in_memory[k]) > kSame)
+      return refuse(state, "heights differ from those of offsets in memory");
+  for (auto _ : state) {
+    surface->heights(plane, {z, {}, {}});
+    benchmark::DoNotOptimize(z.data());
+  }
+  state.counters["per_point"] = time_each(z.size());
+}
+
 /// Every backend: with samples 1, 0.5 and 0.25 mm apart, or as given where it needs none.
 [[maybe_unused]] const bool entered = [] {
   for (const Backend* backend : backends())
     for (const double mm : backend->resample ? std::vector{1.0, 0.5, 0.25} : std::vector{0.0})
       for (const Body body : {Body::wheel, Body::rail}) enter_heights(body, backend->name.c_str(), 1e-3 * mm);
+  if (has_part("nanovdb"))
+    for (const bool tilted : {false, true})
+      benchmark::RegisterBenchmark(tilted ? "tilted/wheel/offset.nvdb/1mm" : "level/wheel/offset.nvdb/1mm",
+                                   [tilted](benchmark::State& state) { mapped(state, tilted); })
+          ->Unit(benchmark::kMillisecond);
   return true;
 }();
 
