@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <random>
@@ -15,6 +17,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/backends/offset/wheel_with_flat.hpp"
 #include "treadmark/tests/support/parts.hpp"
+#include "treadmark/tests/support/refusal.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::testing {
@@ -188,6 +191,21 @@ TEST_F(VdbFile, HostileSizesCostNoMemory) {
   getrusage(RUSAGE_SELF, &own);
   getrusage(RUSAGE_CHILDREN, &programs);
   EXPECT_LT(std::max(own.ru_maxrss, programs.ru_maxrss), kMost);
+}
+
+TEST_F(VdbFile, WhatEndsTheProgramOfOpenVdbIsAnError) {
+  offset::write_vdb(path_, wheel());
+  const fs::path program = folder_.path() / "treadmark-openvdb";
+  for (const char* end : {"exit 0", "kill -SEGV $$", "kill -KILL $$"}) {
+    std::ofstream(program) << "#!/bin/sh\n" << end << '\n';
+    fs::permissions(program, fs::perms::owner_all);
+    setenv("TREADMARK_MODULES", folder_.path().c_str(), 1);
+    EXPECT_THAT(refusal_of([&] { offset::read_vdb(path_); }, ErrorKind::input_data),
+                ::testing::HasSubstr("OpenVDB broke down over the VDB file"))
+        << end;
+    unsetenv("TREADMARK_MODULES");
+  }
+  EXPECT_EQ(kind(), -1);
 }
 
 TEST_F(VdbFile, RefusesEntriesThatMakeNoSense) {
