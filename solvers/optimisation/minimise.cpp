@@ -13,6 +13,9 @@ namespace treadmark::optimisation {
 namespace {
 
 constexpr double kAllowed = 1e-6;  ///< of a constraint
+/// Points without numbers one after the other, each much nearer than the one before: moving asymptotes would go on
+/// within themselves for ever.
+constexpr int kMostWithout = 25;
 
 struct SearchState {
   const Minimisation& problem;
@@ -20,6 +23,7 @@ struct SearchState {
   std::vector<double> point;  ///< that was asked for last
   std::optional<PointValues> values;
   std::exception_ptr thrown;
+  int without = 0;  ///< points without numbers, the last ones
 };
 
 /// Null where there is nothing, and once something was thrown. Objective and constraints are asked for one after the
@@ -40,8 +44,13 @@ const PointValues* values_at(SearchState& s, unsigned n, const double* x) noexce
 }
 
 double objective_at(unsigned n, const double* x, double* gradient, void* state) {
-  const PointValues* values = values_at(*static_cast<SearchState*>(state), n, x);
-  if (values == nullptr) return HUGE_VAL;
+  SearchState& s = *static_cast<SearchState*>(state);
+  const PointValues* values = values_at(s, n, x);
+  if (values == nullptr) {
+    if (++s.without > kMostWithout) nlopt_force_stop(s.optimiser);
+    return HUGE_VAL;
+  }
+  s.without = 0;
   if (gradient != nullptr) std::copy(values->gradient.begin(), values->gradient.end(), gradient);
   return values->objective;
 }
@@ -63,7 +72,7 @@ Minimum minimise(const Minimisation& problem) {
   const auto algorithm = problem.method == Method::mma ? NLOPT_LD_MMA : NLOPT_LD_SLSQP;
   const auto n = static_cast<unsigned>(problem.start.size()), m = static_cast<unsigned>(problem.constraints);
   const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> optimiser(nlopt_create(algorithm, n), nlopt_destroy);
-  SearchState state{problem, optimiser.get(), {}, {}, {}};
+  SearchState state{problem, optimiser.get(), {}, {}, {}, 0};
   nlopt_set_lower_bounds(optimiser.get(), problem.lower.data());
   nlopt_set_upper_bounds(optimiser.get(), problem.upper.data());
   nlopt_set_min_objective(optimiser.get(), objective_at, &state);
@@ -81,11 +90,13 @@ Minimum minimise(const Minimisation& problem) {
   if (state.thrown) std::rethrow_exception(state.thrown);
   out.report.iterations = nlopt_get_numevals(optimiser.get());
   if (ended > 0) return out;
-  out.report.status = ended == NLOPT_ROUNDOFF_LIMITED ? Status::not_converged : Status::failed;
-  const char* said = nlopt_get_errmsg(optimiser.get());
+  out.report.status =
+      ended == NLOPT_ROUNDOFF_LIMITED || ended == NLOPT_FORCED_STOP ? Status::not_converged : Status::failed;
+  const char* said = ended == NLOPT_FAILURE ? nullptr : nlopt_get_errmsg(optimiser.get());  // "bug" for any failure
   out.report.message = ended == NLOPT_ROUNDOFF_LIMITED ? "no better point is found along the gradients"
+                       : ended == NLOPT_FORCED_STOP    ? "no point beside the last one has numbers"
                        : said != nullptr               ? said
-                                                       : "no point keeps the constraints";
+                                                       : "no point near the last one keeps the constraints";
   return out;
 }
 

@@ -28,7 +28,7 @@ enum class Method {
 /// A function of some variables that is to become least. Variables, objective and constraints should be of the order
 /// of 1.
 struct Minimisation {
-  std::vector<double> start, lower, upper;  ///< finite, of one size > 0
+  std::vector<double> start, lower, upper;  ///< of one size > 0; bounds may be infinite
   std::size_t constraints = 0;              ///< how many
   /// Called for one point after the other, the same ones in every run. Nothing: there are no numbers at this point, and
   /// the search turns back. What it throws ends the search and is thrown on.
@@ -39,7 +39,8 @@ struct Minimisation {
 };
 
 /// How it ended and at which point. Status: ok, a minimum as far as the tolerance; not_converged, no better point is
-/// found along the gradients; failed, the constraints contradict each other or the numbers make no sense.
+/// found along the gradients, or none that has numbers; failed, the constraints contradict each other or the numbers
+/// make no sense. Of ok, too, callers see whether the point keeps the constraints.
 struct Minimum {
   Report report;
   std::vector<double> point;

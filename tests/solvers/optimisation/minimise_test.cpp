@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "treadmark/core/constants.hpp"
+
 namespace treadmark::optimisation {
 namespace {
 
@@ -35,7 +37,7 @@ TEST_P(Minimise, FindsTheFootOfThePerpendicular) {
 /// The largest of (x - 1)^2 + 1 and (x + 1)^2 is least where they meet, at x = 1/4: t is a variable above both.
 TEST_P(Minimise, FindsTheLeastOfTheLargest) {
   Minimisation problem;
-  problem.start = {-0.9, 5.0}, problem.lower = {-2.0, -20.0}, problem.upper = {2.0, 20.0};
+  problem.start = {-0.9, 5.0}, problem.lower = {-2.0, -kInfinity}, problem.upper = {2.0, kInfinity};
   problem.constraints = 2;
   problem.method = GetParam();
   problem.tolerance = 1e-7;
@@ -62,6 +64,21 @@ TEST_P(Minimise, TurnsBackWhereThereIsNothing) {
   };
   EXPECT_NEAR(minimise(problem).point[0], 0.9, kFound);
   EXPECT_TRUE(beyond);
+}
+
+TEST_P(Minimise, EndsWhereThereIsNothingBeside) {
+  Minimisation problem;
+  problem.start = {0.0}, problem.lower = {-5.0}, problem.upper = {5.0};
+  problem.method = GetParam();
+  int asked = 0;
+  problem.at = [&](const std::vector<double>& p) -> std::optional<PointValues> {
+    if (++asked > 1000) throw std::runtime_error("endless");
+    if (p[0] > 0.0) return std::nullopt;
+    return PointValues{-p[0], {-1.0}, {}, {}};
+  };
+  const Minimum found = minimise(problem);
+  EXPECT_EQ(found.report.status, Status::not_converged) << found.report.message;
+  EXPECT_EQ(found.point[0], 0.0);
 }
 
 TEST_P(Minimise, PassesOnWhatIsThrownAndAsksForTheSamePointsAgain) {
