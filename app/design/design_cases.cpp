@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -113,7 +114,6 @@ void DesignCases::read_positions() {
     }
   }
   require_registered(cases_);
-  regions_ = sampled_regions(cases_);
 }
 
 void DesignCases::find_variables() {
@@ -155,14 +155,25 @@ void DesignCases::find_surfaces() {
   std::vector<double> start;
   start.reserve(variables_.size());
   for (const DesignVariable& v : variables_) start.push_back((v.given - v.from) / (v.to - v.from));
+  const auto at_end = [&](std::size_t k, double share) {
+    std::vector<double> design = start;
+    design[k] = share;
+    return design;
+  };
+  io::CaseFile reached = cases_;  // what is sampled of surfaces must hold all designs
+  for (std::size_t k = 0; k < keys_.size(); ++k)
+    for (const double share : {0.0, 1.0})
+      told_at(file_.parameters[k].where, [&] {
+        for (std::size_t p = 0; p < cases_.cases.size(); ++p) reached.cases.push_back(case_of(p, at_end(k, share)));
+      });
+  regions_ = sampled_regions(reached);
   for (std::size_t k = 0; k < keys_.size(); ++k) {
-    std::array<wheelrail::Geometry, 2> ends;
-    for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
-      std::vector<double> design = start;
-      design[k] = static_cast<double>(end);
-      ends[end] = told_at(file_.parameters[k].where, [&] { return given_geometry(0, design); });
-    }
-    variables_[k].surfaces = ends[0].rail != ends[1].rail || ends[0].wheel != ends[1].wheel;
+    const auto at = [&](double share) {
+      return told_at(file_.parameters[k].where, [&] { return given_geometry(0, at_end(k, share)); });
+    };
+    const wheelrail::Geometry low = at(0.0), high = at(1.0);
+    variables_[k].surfaces = low.rail != high.rail || low.wheel != high.wheel;
+    remakes_ |= variables_[k].surfaces;
   }
   std::vector<wheelrail::Geometry> all;
   for (std::size_t p = 0; p < cases_.cases.size(); ++p) {
@@ -210,6 +221,14 @@ void DesignCases::find_quantities() {
   for (const io::DesignGoal& goal : file_.goals) add(goal.of);
   for (const io::DesignLimit& limit : file_.limits) add(limit.of);
   contact_ = ranges::any_of(quantities_, [](const Asked& one) { return one.kind == Kind::contact; });
+  if (ranges::none_of(quantities_, [](const Asked& one) { return one.kind == Kind::convexity; })) return;
+  for (std::size_t k = first_bent(); k + first_bent() < convexity_.size(); ++k)
+    if (!std::isfinite(convexity_[k]))
+      throw Error(ErrorKind::configuration,
+                  fmt::format("the {} ends beside y = {:g} mm, so that its convexity there is not known",
+                              body_name(file_.depth->body),
+                              kMilli * (file_.depth->from + static_cast<double>(k) * file_.depth->step)),
+                  file_.depth->where, "begin and end a step within the profile");
 }
 
 DesignCases::Asked DesignCases::asked(const io::DesignedQuantity& quantity) const {
@@ -328,7 +347,7 @@ wheelrail::Geometry DesignCases::geometry(std::size_t position, const std::vecto
 }
 
 DesignNumbers DesignCases::at(const std::vector<double>& design) {
-  if (!keys_.empty()) store_.emplace();  // surfaces of other designs are needed no longer
+  if (remakes_) store_.emplace();  // surfaces of other designs are needed no longer
   DesignNumbers out(quantities_.size());
   for (std::size_t q = 0; q < quantities_.size(); ++q)
     if (quantities_[q].kind == Kind::conicity)
@@ -364,7 +383,7 @@ void DesignCases::take_contact(const Asked& of, std::size_t position,
   for (std::size_t k = 0; k < count; ++k) {
     const std::string name = of.of_patches ? fmt::format("patch_{}.{}", k + 1, of.name) : of.name;
     const auto found = ranges::find(known, name, &io::CaseDerivatives::Number::name);
-    if (found == known.end()) continue;
+    if (found == known.end() || !std::isfinite(found->value)) continue;
     DesignNumber& number = out[first + k];
     number.value = found->value;
     number.by = found->by;
@@ -393,9 +412,16 @@ void DesignCases::add_conicity(const std::vector<double>& design, std::size_t qu
     bodies.reserve(designs.size());
     for (const std::vector<double>& one : designs) bodies.push_back(geometry(pair.position, one));
     std::vector<std::vector<double>> found(designs.size());
+    std::vector<std::exception_ptr> failed(designs.size());
     parallel_for(designs.size(), [&](std::size_t i) {
-      found[i] = conicities(input_of(case_of(pair.position, designs[i])), bodies[i], amplitudes);
+      try {
+        found[i] = conicities(input_of(case_of(pair.position, designs[i])), bodies[i], amplitudes);
+      } catch (const Error&) {
+        failed[i] = std::current_exception();
+      }
     });
+    for (const std::exception_ptr& error : failed)  // of several the same one for any number of threads
+      if (error) std::rethrow_exception(error);
     for (std::size_t a = 0; a < amplitudes.size(); ++a) {
       DesignNumber number{found[0][a], pair.weight, {}};
       for (std::size_t v = 0; v < variables_.size(); ++v) {
@@ -453,7 +479,7 @@ DesignNumbers DesignCases::of_results(const io::CaseFile& file, const io::RunRes
 }
 
 io::CaseFile DesignCases::written(const std::vector<double>& design, const std::filesystem::path& folder) {
-  if (!keys_.empty()) store_.emplace();
+  if (remakes_) store_.emplace();
   io::CaseFile out = cases_;
   out.path = folder / "designed.toml";
   for (std::size_t p = 0; p < out.cases.size(); ++p) out.cases[p] = case_of(p, design);
@@ -463,7 +489,7 @@ io::CaseFile DesignCases::written(const std::vector<double>& design, const std::
   NaturalSurface made;
   made.surface = surface_of(changed, body);
   made.spec.body = body;
-  made.spec.nominal_radius = profile_radius(input_of(cases_.cases[0]), body);
+  made.spec.nominal_radius = profile_radius(input_of(out.cases[0]), body);
   made.spec.shape = SliceSet{};  // known no longer: sampled from the surface
   const bool rail = body == Body::rail;
   io::GeometryFile file;
@@ -479,7 +505,7 @@ io::CaseFile DesignCases::written(const std::vector<double>& design, const std::
     how.resolution = kSamples;
     if (rail) {
       how.range_x = {kInfinity, -kInfinity};
-      for (const io::Case& c : cases_.cases) {
+      for (const io::Case& c : out.cases) {
         how.range_x->first = std::min(how.range_x->first, input_of(c).state.position.x - kAlong);
         how.range_x->second = std::max(how.range_x->second, input_of(c).state.position.x + kAlong);
       }
@@ -491,7 +517,8 @@ io::CaseFile DesignCases::written(const std::vector<double>& design, const std::
     io::SurfaceSource& source = rail ? input.rail : input.wheel;
     io::SurfaceSource now;
     now.geometry = file;
-    now.backend = source.backend, now.resolution = source.resolution, now.where = source.where;
+    if (is_sampled(source)) now.backend = source.backend, now.resolution = source.resolution;  // no formula any more
+    now.where = source.where;
     source = std::move(now);
   }
   return out;

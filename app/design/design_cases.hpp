@@ -56,6 +56,10 @@ class DesignCases {
   /// Of a number, for people: "pmax_MPa", and where it is: "y = 2, patch 1".
   std::string name_of(std::size_t quantity) const { return quantities_[quantity].name; }
   std::string where_of(std::size_t quantity, std::size_t number) const;
+  /// Whether results of cases have it; else it is of the depth.
+  bool in_results(std::size_t quantity) const {
+    return quantities_[quantity].kind == Kind::contact || quantities_[quantity].kind == Kind::conicity;
+  }
 
   /// Numbers of a design with their derivatives. May be cancelled. Errors: Error where a position has no solution, or
   /// a number no derivative.
@@ -124,6 +128,7 @@ class DesignCases {
   std::vector<SectionHeights> by_place_;     ///< the same as heights
   std::vector<Asked> quantities_;
   bool contact_ = false;
+  bool remakes_ = false;  ///< a key changes surfaces, of which the store holds those of one design
   std::vector<BodyPair> pairs_;
   std::vector<double> convexity_;  ///< of the given profile at each place [1/m]
   std::optional<SurfaceStore> store_;
