@@ -7,6 +7,7 @@
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/design/run_design.hpp"
 #include "treadmark/app/pages/read_report.hpp"
+#include "treadmark/core/output_claim.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/simulations/read_design.hpp"
 
@@ -20,6 +21,7 @@ struct DesignCommandOptions {
 
 int design_command(const DesignCommandOptions& options, const CommonOptions& common) {
   const ThreadLimit limit(common.threads);
+  const OutputClaim claim(app::designed_files(options.output_folder));
   const io::DesignFile file = io::read_design_file(options.file, options.overrides);
   print_notes(file.positions.notes, common.quiet);
   const app::DesignOptions wanted{options.output_folder, options.overrides};

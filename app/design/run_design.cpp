@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,6 +18,7 @@
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/byte_archive.hpp"
 #include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/never_cancelled.hpp"
 #include "treadmark/core/output_file.hpp"
@@ -32,7 +35,11 @@ constexpr double kKept = 1e-4;         ///< violation of limits that counts as n
 constexpr double kCheckStep = 2e-3;    ///< share of the ranges
 constexpr double kDisagreement = 0.1;  ///< of a derivative and a difference, beyond which there is a warning
 constexpr double kNoChange = 0.05;     ///< of a number over the whole way, which is no change to be held to
+constexpr double kCancelled = 1e-3;    ///< of what a derivative is the sum of, where rounding and noise are all of it
 constexpr double kAsWritten = 0.02;    ///< by which numbers of the surface that was written may differ
+constexpr double kSmall = 0.1;         ///< of the largest of a quantity, below which a number is held to that
+
+constexpr const char* kSurfaceFiles[] = {"rail.csv", "wheel.csv", "rail.slcs", "wheel.slcw"};
 
 /// No more solutions are allowed.
 struct Spent {};
@@ -141,13 +148,21 @@ class DesignRun {
                                 ranges::any_of(file_.limits, [](const auto& l) { return l.of.name == "conicity"; });
   }
 
-  /// Numbers of a design, from the folder where it was tried before.
-  DesignNumbers numbers_at(const std::vector<double>& design) {
+  /// Numbers of a design, from the folder where it was tried before. Nothing: it has no solution, failed says why.
+  /// Errors: those of the folder, which are no property of a design.
+  std::optional<DesignNumbers> numbers_at(const std::vector<double>& design, std::string& failed) {
     const std::size_t part = asked_++;
     if (log_.has(part))
-      if (std::optional<DesignNumbers> known = kept(part, design)) return std::move(*known);
-    DesignNumbers found = cases_.at(design);
-    if (!log_.has(part)) keep(part, design, found);
+      if (std::optional<DesignNumbers> known = kept(part, design)) return known;
+    std::optional<DesignNumbers> found;
+    try {
+      found = cases_.at(design);
+    } catch (const Error& e) {
+      if (tried_ == 0) throw;  // the base itself
+      failed = e.message();
+      return std::nullopt;
+    }
+    if (!log_.has(part)) keep(part, design, *found);
     return found;
   }
 
@@ -187,15 +202,9 @@ class DesignRun {
   const DesignNumbers* try_design(const std::vector<double>& design) {
     if (tried_ > 0 && design == last_) return last_numbers_ ? &*last_numbers_ : nullptr;
     if ((tried_ + 1) * each_ > static_cast<std::size_t>(file_.solutions)) throw Spent{};
-    last_ = design;
-    last_numbers_.reset();
     DesignStep step;
-    try {
-      last_numbers_ = numbers_at(design);
-    } catch (const Error& e) {
-      if (tried_ == 0) throw;
-      step.failed = e.message();
-    }
+    last_numbers_ = numbers_at(design, step.failed);
+    last_ = design;
     step.design = static_cast<int>(++tried_);
     step.solutions = tried_ * cases_.solutions();
     if (tried_ == 1) {
@@ -286,10 +295,10 @@ class DesignRun {
   }
 
   void search() {
-    constexpr double kFar = 20.0;  // of largest numbers, in their scales
     try_design(start_);
     const DesignNumbers& first = first_numbers_;
-    write_best();  // what cannot be written is told before the search
+    remove_file(options_.folder / "design.json");  // where it stands, the other files are of its making
+    write_best();                                  // what cannot be written is told before the search
     optimisation::Minimisation problem;
     problem.start = start_;
     problem.lower.assign(start_.size(), 0.0);
@@ -298,8 +307,8 @@ class DesignRun {
       if (term.goal->largest) {
         problem.constraints += first[term.quantity].size();
         problem.start.push_back(term.value(first[term.quantity]));
-        problem.lower.push_back(problem.start.back() - kFar);
-        problem.upper.push_back(problem.start.back() + kFar);
+        problem.lower.push_back(-kInfinity);
+        problem.upper.push_back(kInfinity);
       }
     for (const LimitTerm& term : limits_) problem.constraints += first[term.quantity].size();
     problem.method =
@@ -318,6 +327,15 @@ class DesignRun {
       out_.message = ended.status == Status::ok
                          ? fmt::format("the sum or what is sought changes by less than {:g}", file_.tolerance)
                          : ended.message;
+      // the last step was short because a longer one ended there
+      const auto before = out_.history.end() - static_cast<std::ptrdiff_t>(std::min<std::size_t>(2, tried_));
+      const auto without =
+          std::find_if(before, out_.history.end(), [](const DesignStep& s) { return !std::isfinite(s.objective); });
+      if (ended.status == Status::ok && without != out_.history.end()) {
+        out_.status = "stalled";
+        out_.message = "the next designs have no solution";
+        if (!without->failed.empty()) out_.message += ": " + without->failed;
+      }
     } catch (const Spent&) {
       out_.status = "limit";
       out_.message = fmt::format("{} solutions are spent: more by --set design.solutions=...", file_.solutions);
@@ -351,8 +369,8 @@ class DesignRun {
     designed_ = cases_.written(best_, options_.folder);
     write_file(designed_.path, io::case_file_text(designed_, options_.folder));
     out_.files = {"designed.toml"};
-    for (const char* name : {"rail.csv", "wheel.csv", "rail.slcs", "wheel.slcw"})
-      if (std::filesystem::exists(options_.folder / name)) out_.files.emplace_back(name);
+    for (const char* name : kSurfaceFiles)
+      if (file_.depth && std::filesystem::exists(options_.folder / name)) out_.files.emplace_back(name);
   }
 
   /// A difference of second order towards the start, so that it stays within the ranges.
@@ -369,21 +387,22 @@ class DesignRun {
     };
     if (!point_to([&](std::size_t v) { return start_[v]; }))
       if (!point_to([](std::size_t) { return 0.5; })) point_to([](std::size_t) { return 1.0; });
+    std::string failed;
     const auto beside = [&](double steps) {
       std::vector<double> design = best_;
       for (std::size_t v = 0; v < design.size(); ++v) design[v] += steps * kCheckStep * way[v];
       ++checked_;
-      return numbers_at(design);
+      return numbers_at(design, failed);
     };
-    try {
-      const DesignNumbers once = beside(1.0), twice = beside(2.0);
-      out_.disagreement = 0.0;
-      for (std::size_t k = 0; k < out_.numbers.size(); ++k) {
-        const auto [q, i] = number_place_[k];
-        hold(out_.numbers[k], best_numbers_[q][i], way, once[q][i].value, twice[q][i].value);
-      }
-    } catch (const Error& e) {
-      out_.warnings.push_back("derivatives could not be held to solutions: " + e.message());
+    const std::optional<DesignNumbers> once = beside(1.0), twice = beside(2.0);
+    if (!once || !twice) {
+      out_.warnings.push_back("derivatives could not be held to solutions: " + failed);
+      return;
+    }
+    out_.disagreement = 0.0;
+    for (std::size_t k = 0; k < out_.numbers.size(); ++k) {
+      const auto [q, i] = number_place_[k];
+      hold(out_.numbers[k], best_numbers_[q][i], way, (*once)[q][i].value, (*twice)[q][i].value);
     }
     if (out_.disagreement > kDisagreement)
       out_.warnings.push_back(fmt::format(
@@ -394,10 +413,14 @@ class DesignRun {
             double twice) {
     if (!std::isfinite(here.value)) return;
     number.derivative = 0.0;
-    for (std::size_t v = 0; v < way.size(); ++v) number.derivative += way[v] * here.by[v];
+    double terms = 0.0;
+    for (std::size_t v = 0; v < way.size(); ++v) {
+      number.derivative += way[v] * here.by[v];
+      terms += std::fabs(way[v] * here.by[v]);
+    }
     number.difference = (-3.0 * here.value + 4.0 * once - twice) / (2.0 * kCheckStep);
-    const double larger =
-        std::max({std::fabs(number.derivative), std::fabs(number.difference), kNoChange * std::fabs(here.value)});
+    const double larger = std::max({std::fabs(number.derivative), std::fabs(number.difference),
+                                    kNoChange * std::fabs(here.value), kCancelled * terms});
     number.disagreement = std::isfinite(number.difference)
                               ? std::fabs(number.derivative - number.difference) / scale_of(larger)
                               : 1.0;  // a patch went
@@ -410,6 +433,7 @@ class DesignRun {
       const char* folder;
       double DesignedNumber::*number;
     };
+    bool known = false;
     for (const Side& side : {Side{cases_.given(), "before", &DesignedNumber::before},
                              Side{designed_, "after", &DesignedNumber::written}}) {
       SurfaceStore store;
@@ -425,14 +449,23 @@ class DesignRun {
           const auto [q, i] = number_place_[k];
           if (i < numbers[q].size()) out_.numbers[k].*side.number = numbers[q][i].value;
         }
+        known = true;
       } catch (const Error& e) {
+        known = false;
         out_.warnings.push_back(fmt::format("numbers {}: {}", side.folder, e.message()));
       }
     }
-    for (const DesignedNumber& n : out_.numbers)
-      if (std::fabs(n.written - n.after) > kAsWritten * std::fabs(n.after))
+    for (std::size_t k = 0; k < out_.numbers.size() && known; ++k) {
+      const DesignedNumber& n = out_.numbers[k];
+      const std::size_t q = number_place_[k].first;
+      if (!cases_.in_results(q)) continue;
+      const bool one_alone = std::isfinite(n.written) != std::isfinite(n.after);
+      const double size =
+          std::max({std::fabs(n.after), kSmall * size_of(best_numbers_[q]), kSmall * std::fabs(n.before)});
+      if (one_alone || std::fabs(n.written - n.after) > kAsWritten * size)
         out_.warnings.push_back(fmt::format("{}, {}: {:.5g} of what was written, {:.5g} of the design", n.quantity,
                                             n.where, n.written, n.after));
+    }
   }
 
   const io::DesignFile& file_;
@@ -454,6 +487,12 @@ class DesignRun {
 };
 
 }  // namespace
+
+std::vector<std::string> designed_files(const std::filesystem::path& folder) {
+  std::vector<std::string> out{(folder / "designed.toml").string()};
+  for (const char* name : kSurfaceFiles) out.push_back((folder / name).string());
+  return out;
+}
 
 DesignResult run_design(const io::DesignFile& file, const DesignOptions& options, const Progress& progress) {
   const CancellationScope scope(progress.stop);

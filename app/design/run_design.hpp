@@ -62,6 +62,9 @@ struct DesignResult : Origin {
   std::vector<std::string> files;  ///< that hold the design
 };
 
+/// What a design replaces in its folder: no inputs of it.
+std::vector<std::string> designed_files(const std::filesystem::path& folder);
+
 /// Seeks the design of a file that makes the sum of its goals least, by gradients, or goes on where the folder says it
 /// was stopped: every design that was tried is kept there, and results are the same for any number of interruptions and
 /// threads. Then holds its derivatives to solutions and runs the base and what was written. The folder gets the design

@@ -29,6 +29,7 @@ Table design_table_of(const io::Json& result, const char* list, const std::strin
   const auto found = result.find(list);
   if (found == result.end() || !found->is_array()) return table;
   for (const io::Json& one : *found) {
+    if (!one.is_object()) continue;
     Table::Row row;
     for (const char* member : members) {
       const io::Json value = one.value(member, io::Json());
@@ -61,7 +62,8 @@ Page design_page(const fs::path& folder) {
       design_table_of(result, "variables", "What was sought.", {"name", "from", "to", "start", "best"}));
   plain.sections.front() = std::move(design);
   const fs::path before = folder / "before" / "fields.h5", after = folder / "after" / "fields.h5";
-  if (!fs::exists(before) || !fs::exists(after)) return plain;
+  const bool ended = result.value("status", io::Json()) != "interrupted";  // else runs may be those of another design
+  if (!ended || !fs::exists(before) || !fs::exists(after)) return plain;
   std::vector<Overlaid<io::RunResult>> runs;
   runs.push_back({"before", io::read_hdf5(before)});
   runs.push_back({"after", io::read_hdf5(after)});

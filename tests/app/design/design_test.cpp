@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -27,6 +28,7 @@
 #include "treadmark/app/cases/solve_cases.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/simulations/read_design.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/running_program.hpp"
 #include "treadmark/tests/app/standard_case.hpp"
@@ -342,7 +344,9 @@ TEST(Design, GoesOnWhereItWasInterruptedWithTheSameResult) {
   std::vector<std::string> more = words("two");
   more.back() = "design.solutions=18";
   run_program(more);
-  EXPECT_GE(result_in(folder.path() / "two").at("designs").get<int>(), 5) << "with more solutions it goes on";
+  const nlohmann::json one = result_in(folder.path() / "one"), two = result_in(folder.path() / "two");
+  EXPECT_EQ(two.at("designs").get<int>() > one.at("designs").get<int>(), one.at("status") == "limit")
+      << "with more solutions it goes on";
   std::vector<std::string> other = words("two");
   other.insert(other.end(), {"--set", "wheelset.vertical_force_N=70e3"});
   const ProgramResult refused = run_program(other);
@@ -354,6 +358,79 @@ TEST(Design, GoesOnWhereItWasInterruptedWithTheSameResult) {
           .wait();
   EXPECT_EQ(full.status, 1);
   EXPECT_THAT(full.err, HasSubstr("could not be written to standard output"));
+}
+
+/// Over a straight sum the best depth is the least one, whatever counts as 1.
+TEST(Design, AScaleDoesNotBoundWhatIsFound) {
+  const TemporaryFolder folder;
+  const io::DesignFile file =
+      io::read_design_file(folder.write("sum.toml", treadmark::testing::standard_case("2.0") + R"([design]
+[design.depth]
+from_mm = -10
+to_mm = 10
+step_mm = 10
+least_mm = [-0.2]
+most_mm = [0]
+[[design.goals]]
+quantity = "removed_mm2"
+over = "largest"
+scale = 0.1
+)"));
+  const DesignResult result = run_design(file, {folder.path() / "out", {}});
+  EXPECT_EQ(result.status, "converged") << result.message;
+  EXPECT_NEAR(result.best, -3.0 * 0.2 * 10.0 / 0.1, 0.1);
+  for (const DesignVariable& variable : result.variables) EXPECT_NEAR(variable.best, -0.2, 1e-3) << variable.name;
+  EXPECT_LT(result.disagreement, 1e-6);
+  EXPECT_THAT(result.warnings, ::testing::IsEmpty());
+}
+
+TEST(Design, WritesTheSurfaceThatItFound) {
+  const TemporaryFolder folder;
+  const std::string base = treadmark::testing::standard_case("2.0"),
+                    depth =
+                        "from_mm = -10\nto_mm = 10\nstep_mm = 10\nmost_mm = [0.2]\n"
+                        "[[design.goals]]\nquantity = \"removed_mm2\"\n";
+  const auto height = [](const io::CaseFile& file, Body body) {
+    const wheelrail::Geometry bodies = check_geometry(file).front().geometry;
+    const std::array<double, 1> y{0.0};
+    std::array<double, 1> z{};
+    section_heights(body == Body::rail ? *bodies.rail : *bodies.wheel, body, 0.0, y, {z, {}, {}});
+    return z[0];
+  };
+  constexpr double kAsWritten = 15e-6;  // m, of samples 1 mm apart
+
+  const io::DesignFile squat = io::read_design_file(
+      folder.write("squat.toml", base + "[[rail.squats]]\nlength_mm = 60\nwidth_mm = 40\ndepth_mm = 0.2\n[design]\n" +
+                                     "[[design.parameters]]\nkey = \"rail.squats.0.depth_mm\"\nfrom = 0.1\nto = 0.3\n" +
+                                     "[design.depth]\n" + depth));
+  DesignCases over_squat(squat);
+  const double rail = height(over_squat.given(), Body::rail);
+  EXPECT_NEAR(height(over_squat.written({0.5, 0.5, 0.5, 0.5}, folder.path()), Body::rail), rail + 0.1e-3, kAsWritten);
+  EXPECT_NEAR(height(over_squat.written({1.0, 0.5, 0.5, 0.5}, folder.path()), Body::rail), rail + 0.2e-3, kAsWritten);
+  EXPECT_TRUE(fs::exists(folder.path() / "rail.slcs"));
+
+  // a profile counts from the nominal radius, here one that is sought, too
+  const io::DesignFile wheel = io::read_design_file(
+      folder.write("wheel.toml",
+                   base + "[design]\n[[design.parameters]]\nkey = \"wheelset.nominal_radius_mm\"\nfrom = 440\n" +
+                       "to = 480\n[design.depth]\nbody = \"wheel\"\n" + depth),
+      std::vector<std::string>{"wheelset.nominal_radius_mm=460"});
+  DesignCases of_wheel(wheel);
+  EXPECT_NEAR(height(of_wheel.written({1.0, 0.5, 0.5, 0.5}, folder.path()), Body::wheel), 0.48 - 0.1e-3, kAsWritten);
+  EXPECT_TRUE(fs::exists(folder.path() / "wheel.csv"));
+}
+
+TEST(Design, ReplacesNoInput) {
+  const TemporaryFolder folder;
+  write_ridged_rail(folder);
+  fs::rename(folder.path() / "ridged.csv", folder.path() / "rail.csv");
+  const std::string text = over_the_ridge("2"), given = text_of_file(folder.path() / "rail.csv");
+  const std::size_t name = text.find("ridged.csv");
+  const fs::path file = folder.write("grind.toml", text.substr(0, name) + "rail.csv" + text.substr(name + 10));
+  const ProgramResult refused = run_program({"design", file.string(), "-o", folder.path().string()});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("would overwrite"));
+  EXPECT_EQ(text_of_file(folder.path() / "rail.csv"), given);
 }
 
 /// What reading alone does not see.
@@ -390,6 +467,9 @@ TEST(Design, RefusesWhatMakesNoSense) {
       HasSubstr("not the same in all positions"));
   EXPECT_THAT(error("[design.depth]\nfrom_mm = -10\nto_mm = 190\nstep_mm = 10\nmost_mm = [0.2]\n" + pmax),
               HasSubstr("there is no rail at y ="));
+  EXPECT_THAT(error("[design.depth]\nfrom_mm = -30\nto_mm = 30\nstep_mm = 60\nmost_mm = [0.2]\n" + goal +
+                    "\"convexity_1_per_m\"\n"),
+              HasSubstr("convexity there is not known"));
   EXPECT_THAT(error("[[design.vary]]\nkey = \"rail.shape.standard\"\nvalues = [\"60E1\", \"60E2\"]\n" + depth + pmax),
               HasSubstr("different surfaces of the rail"));
   DesignOptions options{folder.path() / "out", {}};
