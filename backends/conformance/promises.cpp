@@ -451,29 +451,33 @@ Finding curvatures(const Subject& s) {
 }
 
 /// Against the surface with each of a few parameters changed, those on which the heights of some points depend most.
+/// Where it has a kink in a parameter, as where parts of a body lie over each other, the derivative may be any between
+/// those of both sides.
 Finding pulled_back(const Subject& s) {
   constexpr double kSame = 2e-3, kRounding = 1e-12, kLean = 0.3, kManySteps = 1e3;
-  constexpr std::size_t kPlanes = 2, kMost = 2;
+  constexpr std::size_t kFew = 10000;  // surfaces of more parameters may take a second to make
   constexpr Grid2 kClose{0.2e-3, -0.1e-3, 0.43e-3, 0.39e-3, 3, 3};
   Tally tally(s);
   const std::vector<ShapeParameter> all = s.surface->parameters();
   tally.expect(all.size() == s.surface->parameter_count(), {}, "how many parameters it has");
-  for (std::size_t k = 0; k < std::min(kPlanes, s.planes.size()) && !all.empty(); ++k) {
+  const std::size_t each = all.size() > kFew ? 1 : 2;  // of planes, and of parameters in a plane
+  for (std::size_t k = 0; k < std::min(each, s.planes.size()) && !all.empty(); ++k) {
     const Pose& X = s.planes[k];
     std::vector<Vec2> points;
     for (int iy = 0; iy < kClose.ny; ++iy)
       for (int ix = 0; ix < kClose.nx; ++ix) points.emplace_back(kClose.x(ix), kClose.y(iy));
     std::vector<SurfacePoint> at(points.size());
     s.surface->locate(X, points, at);
-    std::vector<double> weights(points.size(), 0.0), by(all.size(), 0.0);
+    std::vector<double> weights(points.size(), 0.0), by(all.size(), 0.0), here(points.size());
     for (std::size_t i = 0; i < at.size(); ++i)
       if (at[i].status == LocateStatus::converged && !near_end(s, at[i].position_S.y(), 1e-3) &&
           std::fabs(at[i].normal_S.dot(X.rotation.col(2))) > kLean)
         weights[i] = 1.0 + 0.1 * static_cast<double>(i);
     s.surface->pull_back(X, points, weights, by);
+    s.surface->heights_at(X, points, {here, {}, {}});
     std::vector<std::size_t> order(all.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto most = order.begin() + static_cast<std::ptrdiff_t>(std::min(kMost, order.size()));
+    const auto most = order.begin() + static_cast<std::ptrdiff_t>(std::min(each, order.size()));
     std::partial_sort(order.begin(), most, order.end(),
                       [&](std::size_t a, std::size_t b) { return std::fabs(by[a]) > std::fabs(by[b]); });
     for (auto one = order.begin(); one != most && by[*one] != 0.0; ++one) {
@@ -481,14 +485,16 @@ Finding pulled_back(const Subject& s) {
       std::vector<double> more(points.size()), less(points.size());
       s.surface->changed(*one, amount)->heights_at(X, points, {more, {}, {}});
       s.surface->changed(*one, -amount)->heights_at(X, points, {less, {}, {}});
-      double sum = 0.0, size = 0.0;
+      double low = 0.0, high = 0.0, size = 0.0;
       for (std::size_t i = 0; i < points.size(); ++i) {
         if (weights[i] == 0.0) continue;
-        const double part = weights[i] * (more[i] - less[i]) / (2.0 * amount);
-        sum += part, size += std::fabs(part) * kSame + weights[i] * kRounding / amount;
+        const double up = weights[i] * (more[i] - here[i]) / amount, down = weights[i] * (here[i] - less[i]) / amount;
+        low += std::min(up, down), high += std::max(up, down);
+        size += 0.5 * std::fabs(up + down) * kSame + weights[i] * kRounding / amount;
       }
-      tally.add(std::fabs(by[*one] - sum) / size, {static_cast<int>(k), points[4].x(), points[4].y()},
-                all[*one].name.c_str(), by[*one], sum);
+      const double off = std::fabs(by[*one] - std::clamp(by[*one], low, high));
+      tally.add((std::isnan(low + high) ? kNaN : off) / size, {static_cast<int>(k), points[4].x(), points[4].y()},
+                all[*one].name.c_str(), by[*one], 0.5 * (low + high));
     }
   }
   return tally.finding();
