@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,6 +71,9 @@ bool near_enough(double s, double t) {
   return std::fabs(s) < kFar && std::fabs(t) < kFar;
 }
 
+/// As names of parameters have numbers, which know no minus.
+std::string in_a_name(int number) { return number < 0 ? 'm' + std::to_string(-number) : std::to_string(number); }
+
 /// Of a B-spline, by voxel.
 struct Jet {
   double h = 0.0, dh = 0.0, ddh = 0.0;
@@ -126,9 +130,7 @@ class SheetField final : public displacement::OffsetField, public std::enable_sh
         ranges_(grid(), directory_, frame_, kDegree),
         view_(view()),
         kernel_(fastest_kernel<SheetKernel>().of_degree[kDegree]),
-        constant_(alike_all_round()) {
-    for (const SheetEntry& entry : grid().blocks()) blocks_.push_back(entry.key);
-  }
+        constant_(alike_all_round()) {}
   SheetField(const SheetField&) = delete;  // the view points into it
   SheetField& operator=(const SheetField&) = delete;
 
@@ -172,11 +174,11 @@ class SheetField final : public displacement::OffsetField, public std::enable_sh
       const auto [i, j] = voxel(k);
       const double u = frame_.u0 + i * frame_.du, y = frame_.y0 + j * frame_.dy;
       const Vec3 place = rail ? Vec3(u, y, 0.0) : Vec3(r * std::sin(u), y, r * std::cos(u));
-      all[k] = {"node_" + std::to_string(i) + '_' + std::to_string(j), "m", step, place};
+      all[k] = {"node_" + in_a_name(i) + '_' + in_a_name(j), "m", step, place};
     }
     return all;
   }
-  std::size_t parameter_count() const override { return blocks_.size() * kBlockI * kBlockJ; }
+  std::size_t parameter_count() const override { return blocks().size() * kBlockI * kBlockJ; }
   std::shared_ptr<const OffsetField> changed(std::size_t parameter, double amount) const override {
     const auto [i, j] = voxel(parameter);
     return displacement::with_more(this->shared_from_this(), std::make_shared<VoxelField<kDegree>>(frame_, i, j),
@@ -190,26 +192,34 @@ class SheetField final : public displacement::OffsetField, public std::enable_sh
     const double s = frame_.along(u), t = frame_.across(y);
     if (!near_enough((u - frame_.u0) / frame_.du, t) || !near_enough(s, t)) return;
     const Weights<kDegree> a(s), b(t);
+    const std::vector<BlockKey>& all = blocks();
     for (int m = 0; m <= kDegree; ++m)
       for (int n = 0; n <= kDegree; ++n) {
         const int i = frame_.wrapped(a.first + m), j = b.first + n;
         const BlockKey key{i >> 3, j >> 6};
-        const auto block = ranges::lower_bound(blocks_, key);
-        if (block == blocks_.end() || *block != key) continue;
-        const auto first = static_cast<std::size_t>(block - blocks_.begin()) * kBlockI * kBlockJ;
+        const auto block = ranges::lower_bound(all, key);
+        if (block == all.end() || *block != key) continue;
+        const auto first = static_cast<std::size_t>(block - all.begin()) * kBlockI * kBlockJ;
         sums[first + static_cast<std::size_t>(((i & 7) << 6) | (j & 63))] += weight * a.w[m] * b.w[n];
       }
   }
 
   std::size_t memory_bytes() const override {
     return sizeof(*this) + offsets_->grid.memory_bytes() + (kDegree == 1 ? 0 : grid().memory_bytes()) +
-           directory_.memory_bytes() + ranges_.memory_bytes() + blocks_.size() * sizeof(BlockKey);
+           directory_.memory_bytes() + ranges_.memory_bytes();
   }
 
  private:
+  /// Those of the coefficients, in order: listed by the first who asks for parameters.
+  const std::vector<BlockKey>& blocks() const {
+    std::call_once(listed_, [this] {
+      for (const SheetEntry& entry : grid().blocks()) blocks_.push_back(entry.key);
+    });
+    return blocks_;
+  }
   /// Whose coefficient a parameter is.
   std::pair<int, int> voxel(std::size_t parameter) const {
-    const BlockKey& block = blocks_[parameter / (kBlockI * kBlockJ)];
+    const BlockKey& block = blocks()[parameter / (kBlockI * kBlockJ)];
     const auto inside = static_cast<int>(parameter % (kBlockI * kBlockJ));
     return {block.bi * kBlockI + inside / kBlockJ, block.bj * kBlockJ + inside % kBlockJ};
   }
@@ -262,7 +272,8 @@ class SheetField final : public displacement::OffsetField, public std::enable_sh
   SheetView view_;
   SheetPoints kernel_;
   bool constant_;
-  std::vector<BlockKey> blocks_;  ///< of the coefficients, in order
+  mutable std::once_flag listed_;
+  mutable std::vector<BlockKey> blocks_;  ///< see blocks()
 };
 
 }  // namespace
