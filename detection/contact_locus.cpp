@@ -243,6 +243,7 @@ void ContactLocus::measure_curves(Fine& fine, int from, int to) const {
                  behind = wheel.height(line.x[k] + kReach, y, guess);
     const double drop = line.wheel_z[k] - 0.5 * (before + behind);
     if (!(drop > 0.0)) continue;
+    fine.measured[k] = 2;
     line.radius[k] = 0.5 * (kReach * kReach + drop * drop) / drop;
     fine.cubic[k] = 0.5 * (behind - before) / (kReach * kReach * kReach);
   }
@@ -383,7 +384,7 @@ void ContactLocus::add_rows(const Fine& looked_at, int first, int last, double w
     sum.add_wheel(lowest, by_c);
     // the lowest point moves to where the slope is 0, and with it the places where the curve is measured
     const double a = kCurveReach, fall = r - std::sqrt(std::max(0.0, r * r - a * a));
-    const bool measured = looked_at.measured[k] != 0 && fall > 0.0;
+    const bool measured = looked_at.measured[k] == 2 && fall > 0.0;
     sum.add_wheel_slope(lowest, {step * by_x * r * (measured ? 1.0 - share * square / (a * a) : 1.0), 0.0, 0.0});
     if (!measured) continue;
     const ReferenceSum::Three by_fall = scaled(0.5 * (1.0 - a * a / (fall * fall)), by_r);

@@ -61,7 +61,7 @@ class ContactLocus {
     SampledProfile profile;
     /// The wheel's curve along x is a circle with a cubic part (a yawed wheel is askew), both measured where bodies
     /// interpenetrate: radius is then that one.
-    std::vector<char> measured;
+    std::vector<char> measured;  ///< 0: not yet, 1: tried, 2: it was
     std::vector<double> cubic;
   };
   Outline trace(const Rows& rows, const SampledProfile& profile);

@@ -125,7 +125,7 @@ std::optional<ReferenceChange> ContactSearch::reference_change(double wheel_dz, 
   }
   // what may change beside the one line on which a locus looks counts where it is
   const Rectangle& box = patch.extent.box;
-  const int n = s.refined_points;
+  const int n = std::max(9, s.refined_points);
   const double dx = (box.x_max - box.x_min) / (n - 3), dy = (box.y_max - box.y_min) / (n - 3);
   if (!(dx > 0.0 && dy > 0.0)) return std::nullopt;
   const GapField field = gap_field(bodies_, {box.x_min - dx, box.y_min - dy, dx, dy, n, n});
