@@ -219,7 +219,9 @@ tm_status tm_surface_heights(const tm_surface* s, const double origin[3], const 
 }
 
 size_t tm_surface_parameters(const tm_surface* s) {
-  return s == nullptr ? 0 : s->represented.surface->parameter_count();
+  std::size_t count = 0;
+  if (s != nullptr) static_cast<void>(guarded([&] { count = s->represented.surface->parameter_count(); }));
+  return count;
 }
 
 tm_status tm_surface_parameter_places(const tm_surface* s, double* xyz, size_t n) {
