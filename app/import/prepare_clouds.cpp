@@ -74,9 +74,8 @@ scans::NoiseProperty angles_of(const PlacedScan& scan, const scans::Projection& 
   parallel_blocks(points.size(), kBlock, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
       const std::uint32_t index = points.index[i];
-      auto station = scan.stations.begin();
-      if (scan.stations.size() > 1 && !scan.passes.empty()) station = scan.stations.find(scan.passes[index]);
-      if (station == scan.stations.end()) continue;
+      const Vec3* const station = station_of(scan.stations, scan.passes, index);
+      if (station == nullptr) continue;
       Vec3 place = scan.points[index];
       const double u = (band.a_min + points.a[i]) / band.radius;
       Vec3 normal = scan.placement.X_CS.rotation * scans::direction(band.body, u, band.section.at(points.s[i]).normal);
@@ -85,7 +84,7 @@ scans::NoiseProperty angles_of(const PlacedScan& scan, const scans::Projection& 
         place = frame.apply({0.0, place.y(), place.z()});
         normal = frame.rotation * normal;
       }
-      const Vec3 beam = station->second - place;
+      const Vec3 beam = *station - place;
       const double angle = std::acos(std::clamp(normal.dot(beam) / std::max(beam.norm(), 1e-9), 0.0, 1.0));
       out[index] = to_whole<std::uint16_t>(2.0 * angle / kPi * kAngles, 0.0, kAngles - 1.0);
     }
@@ -140,6 +139,7 @@ void weigh_points(const PlacedScan& scan, scans::Projection& projection, const s
                            : fmt::format("intensity beyond {:g}", ends.back()),
          one.points, one.factor});
   }
+  noise.residual = {};
 }
 
 }  // namespace treadmark::app

@@ -24,11 +24,15 @@ struct PointCloud {
 };
 
 /// Where the scanner stood that took a point; nullptr: not known.
+inline const Vec3* station_of(const std::map<std::uint16_t, Vec3>& stations, const std::vector<std::uint16_t>& passes,
+                              std::size_t point) {
+  if (stations.size() == 1) return &stations.begin()->second;
+  if (passes.empty()) return nullptr;
+  const auto found = stations.find(passes[point]);
+  return found == stations.end() ? nullptr : &found->second;
+}
 inline const Vec3* station_of(const PointCloud& cloud, std::size_t point) {
-  if (cloud.stations.size() == 1) return &cloud.stations.begin()->second;
-  if (cloud.passes.empty()) return nullptr;
-  const auto found = cloud.stations.find(cloud.passes[point]);
-  return found == cloud.stations.end() ? nullptr : &found->second;
+  return station_of(cloud.stations, cloud.passes, point);
 }
 
 /// Leaves the points for which keep(number) is true, with all that is known of them.

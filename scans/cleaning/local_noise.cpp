@@ -154,8 +154,9 @@ LocalNoise find_noise(BandPoints& points, const Band& band, const NoiseSettings&
       const double reach_a = points.cell_a * (window + 0.5), reach_s = points.cell_s * (window + 0.5);
       const WindowFit fit = fit_window(samples, 0.1 * settings.least_noise);
       of_cell[row * points.columns + static_cast<std::size_t>(column)] = static_cast<float>(fit.sigma);
-      if (!(settings.outlier_factor > 0.0)) continue;
-      const double limit = std::max(settings.outlier_factor * fit.sigma, settings.least_outlier);
+      const bool judged = settings.outlier_factor > 0.0;
+      if (!judged && !settings.residuals) continue;
+      const double limit = judged ? std::max(settings.outlier_factor * fit.sigma, settings.least_outlier) : kInfinity;
       const auto beyond = static_cast<std::size_t>(
           std::count_if(samples.size, samples.size + samples.count, [&](float size) { return size > limit; }));
       const bool edge = static_cast<double>(beyond) >
@@ -165,6 +166,7 @@ LocalNoise find_noise(BandPoints& points, const Band& band, const NoiseSettings&
         // a lone point draws the quadratic to itself: judged by what the others say of it (Cook and Weisberg 1982)
         const double leverage = fit.factor.matrixL().solve(t).squaredNorm();
         if (leverage > kMostLeverage) {
+          if (!judged) continue;
           points.state[i] = PointState::outlier;
           ++isolated[row];
           continue;

@@ -16,9 +16,12 @@ namespace {
 constexpr std::size_t kFewestOfClass = 300, kFewestOfTile = 30;
 constexpr int kPolishRounds = 10;
 constexpr double kDiffers = 1.15;  // largest factor over the least of a property that counts
+// what they may be off by chance: standard errors, and that of a median of sizes of normal numbers, relative, over
+// 1 / root count
+constexpr double kSurely = 3.0, kOfMedian = 1.17;
 
 struct Class {
-  std::size_t points = 0;
+  std::size_t points = 0, looked_at = 0;
   double factor = 1.0;
 };
 
@@ -37,11 +40,14 @@ class Polish {
     }
   }
 
-  /// Of those that are known, the largest over the least.
+  /// Of those that are known, the largest over the least, as far as it is no chance.
   double spread(std::size_t property) const {
     double least = kInfinity, most = 0.0;
-    for (const Class& one : classes_[property])
-      if (one.points >= kFewestOfClass) least = std::min(least, one.factor), most = std::max(most, one.factor);
+    for (const Class& one : classes_[property]) {
+      if (one.looked_at < kFewestOfClass) continue;
+      const double chance = std::exp(kSurely * kOfMedian / std::sqrt(static_cast<double>(one.looked_at)));
+      least = std::min(least, one.factor * chance), most = std::max(most, one.factor / chance);
+    }
     return most > 0.0 ? most / least : 1.0;
   }
 
@@ -82,6 +88,7 @@ class Polish {
     for (std::size_t number = 0; number < sizes.size(); ++number) {
       std::vector<double>& values = sizes[number];
       Class& one = known[number];
+      one.looked_at = values.size();
       one.points = stride * values.size();
       one.factor = values.size() < kFewestOfClass ? 1.0 : std::max(kMad * median_of(values), 1e-3);
       sum += static_cast<double>(values.size()) * std::log(one.factor), weight += static_cast<double>(values.size());
@@ -131,7 +138,7 @@ std::vector<NoiseClass> find_noise_factors(BandPoints& points, std::span<const N
   }
   for (std::size_t p = 0; p < that_count.size(); ++p)
     for (std::size_t k = 0; k < polish.classes(p).size(); ++k)
-      if (const Class& one = polish.classes(p)[k]; one.points >= kFewestOfClass)
+      if (const Class& one = polish.classes(p)[k]; one.looked_at >= kFewestOfClass)
         out.push_back({number[p], static_cast<std::uint16_t>(k), one.points, one.factor});
   noise.sigma = polish.sigma();
   noise.factor.assign(that_count.front().size(), 1.0f);

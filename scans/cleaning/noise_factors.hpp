@@ -24,9 +24,9 @@ struct NoiseClass {
 
 /// Tells the noise of classes of points apart from that of places: a point's standard deviation is that of its tile
 /// times a factor for each of its properties, found by medians of residuals in turn (median polish; Tukey 1977). Only
-/// properties count whose classes differ by a seventh or more; without any nothing changes. Sets noise.factor and
-/// noise.sigma, and gives back points that are no outliers by the noise of their own class. noise: of find_noise with
-/// residuals. Deterministic.
+/// properties count whose classes surely differ by a seventh or more; without any nothing changes. Sets noise.factor
+/// and noise.sigma, and gives back points that are no outliers by the noise of their own class. noise: of find_noise
+/// with residuals. Deterministic.
 std::vector<NoiseClass> find_noise_factors(BandPoints& points, std::span<const NoiseProperty> properties,
                                            const NoiseSettings& settings, LocalNoise& noise);
 

@@ -30,7 +30,7 @@ CellSums sums_of(const BandPoints& points, const LocalNoise& noise, std::span<co
         if (points.state[i] != PointState::used && points.state[i] != PointState::held_out) continue;
         out.count += 1.0;
         out.residual += residual[i];
-        out.variance += std::pow(noise.at(r, c), 2);
+        out.variance += std::pow(noise.at(r, c) * noise.factor_of(points.index[i]), 2);
       }
   return out;
 }
