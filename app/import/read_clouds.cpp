@@ -245,10 +245,11 @@ Clouds read_clouds(const ImportRequest& request, io::ImportReport& report, const
         out.cloud.passes.push_back(
             pass_number.emplace(key, static_cast<std::uint16_t>(pass_number.size())).first->second);
       }
-      for (const auto& [pass, place] : stations)
-        if (const auto known = pass_number.find({file, own.empty() ? std::uint16_t{0} : pass});
-            known != pass_number.end())
-          out.cloud.stations[known->second] = place;
+      for (const auto& [key, number] : pass_number) {
+        if (key.first != file) continue;
+        const auto known = stations.size() == 1 ? stations.begin() : stations.find(key.second);
+        if (known != stations.end()) out.cloud.stations[number] = known->second;
+      }
     }
   }
   // of some files alone they would pass for those of all

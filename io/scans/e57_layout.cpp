@@ -123,6 +123,7 @@ struct E57Xml::State {
     const bool of_pose = in_scan({"pose"}, true) && path.size() == 6;
     if (of_pose) {
       E57Scan& scan = layout.scans.back();
+      scan.has_pose = true;
       const std::string& group = path[4];
       const std::size_t k = std::string_view("wxyz").find(path[5]);
       if (path[5].size() == 1 && k != std::string_view::npos) {

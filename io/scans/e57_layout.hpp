@@ -28,6 +28,7 @@ struct E57Field {
 struct E57Scan {
   double quaternion[4] = {1.0, 0.0, 0.0, 0.0};  ///< w x y z
   Vec3 translation = Vec3::Zero();
+  bool has_pose = false;
   std::uint64_t file_offset = 0, records = 0;
   std::vector<E57Field> fields;
 };

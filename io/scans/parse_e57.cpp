@@ -60,9 +60,12 @@ class E57Points {
 
   bool normals() const { return normals_; }
   bool intensities() const { return intensities_; }
+  /// Whether the scanner stood where the pose is: what has neither a pose nor beams may have been put together of
+  /// several scans.
+  bool has_station() const { return scan_.has_pose || spherical_; }
 
-  void read(CloudBuilder& builder, std::uint16_t pass) {
-    builder.set_station(pass, pose_.origin);
+  void read(CloudBuilder& builder, std::uint16_t pass, bool stations) {
+    if (stations) builder.set_station(pass, pose_.origin);
     pages_.seek(scan_.file_offset);
     char head[32];
     pages_.read(head, sizeof head);
@@ -262,7 +265,9 @@ Scan parse_e57(ByteBlocks& bytes, const ScanReadOptions& options) {
       !scans.empty() && std::all_of(scans.begin(), scans.end(), [](const E57Points& s) { return s.normals(); });
   builder.set_content(normals, true);
   builder.set_intensities(std::any_of(scans.begin(), scans.end(), [](const E57Points& s) { return s.intensities(); }));
-  for (std::size_t k = 0; k < scans.size(); ++k) scans[k].read(builder, builder.pass(static_cast<double>(k + 1)));
+  const bool stations = std::all_of(scans.begin(), scans.end(), [](const E57Points& s) { return s.has_station(); });
+  for (std::size_t k = 0; k < scans.size(); ++k)
+    scans[k].read(builder, builder.pass(static_cast<double>(k + 1)), stations);
   std::string format = fmt::format("E57, {} scan{}", scans.size(), scans.size() == 1 ? "" : "s");
   if (normals) format += ", normals";
   if (builder.keep_different_passes()) format += ", pass from the scan";

@@ -76,7 +76,8 @@ bool is_scan_file(const std::filesystem::path& file);
 ///   .ptx  stations one after the other, each with its matrix applied; pass: the station where there are several.
 ///   .e57  1.0: scans with Cartesian or spherical coordinates, each with its pose applied; the check sum of every page
 ///         that is read is tested; unit: metre; pass: the scan where there are several. Needs Expat.
-///         Of both, the places of matrices and poses are where the scanner stood.
+///         Of both, the places of matrices and poses are where the scanner stood, if all scans of an .e57 have poses
+///         or spherical coordinates.
 ///   .xyz .xyzrgb .xyzn .pts .asc .txt .csv  columns of text. Separators: blanks, tabs, ',' or ';'; decimal commas
 ///   where something else separates
 ///         and there is no decimal point. Comments: # ! % // at the start of a line or behind the numbers, ';' before

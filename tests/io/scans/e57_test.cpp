@@ -34,10 +34,19 @@ TEST(E57, ScansWithTheirPosesAndAnyNumberOfBits) {
     EXPECT_EQ(scan.unit, LengthUnit::metre);
     EXPECT_EQ(scan.reference, "");
     EXPECT_EQ(scan.format, "E57, 2 scans, pass from the scan");
-    EXPECT_EQ(scan.cloud.stations.at(1), Vec3(0, 0, 0));
-    EXPECT_EQ(scan.cloud.stations.at(2), Vec3(10, 20, 30));
+    EXPECT_TRUE(scan.cloud.stations.empty()) << "nobody says where the first one was taken from";
     EXPECT_TRUE(scan.cloud.intensities.empty()) << "the same everywhere they say nothing";
   }
+}
+
+TEST(E57, PosesSayWhereTheScannerStood) {
+  TREADMARK_NEEDS("expat");
+  E57File file = e57();
+  file.scans[0].pose = file.scans[1].pose;
+  const Scan scan = parse_in_all_blocks(parse_e57, file.bytes());
+  ASSERT_EQ(scan.cloud.stations.size(), 2u);
+  EXPECT_EQ(scan.cloud.stations.at(1), Vec3(10, 20, 30));
+  EXPECT_EQ(scan.cloud.stations.at(2), Vec3(10, 20, 30));
 }
 
 TEST(E57, SphericalCoordinatesAndNormals) {
@@ -57,6 +66,7 @@ TEST(E57, SphericalCoordinatesAndNormals) {
   scan.fields.push_back(normal("nor:normalZ", -0.8));
   const Scan read = parse_in_all_blocks(parse_e57, file.bytes());
   ASSERT_EQ(read.cloud.points.size(), 2u);
+  EXPECT_EQ(*station_of(read.cloud, 0), Vec3(0, 0, 0));
   const Vec3 expected = 4.0 * Vec3(std::cos(6.0) * std::cos(5.0), std::cos(6.0) * std::sin(5.0), std::sin(6.0));
   EXPECT_NEAR((read.cloud.points[1] - expected).norm(), 0.0, 1e-14);
   ASSERT_EQ(read.cloud.normals.size(), 2u);
