@@ -116,13 +116,19 @@ class Registration {
     const double nearest = 2.0 * std::max(others.size(), elements_.size);
     constexpr int kMostRounds = 150;
     constexpr double kShrinks = 0.85, kStill = 1e-6, kRestless = 50e-6;  // steps [m]
+    // a squat that is the only thing to tell the place along a rail stands out of all others before it lies on itself:
+    // what is that far off counts at first, and less and less
+    constexpr double kAtFirst = 0.02;
     double reach = std::max(farthest, nearest), step = kInfinity;
-    for (int round = 0; round < kMostRounds && (reach > nearest || step > kStill); ++round) {
+    least_scale_ = kAtFirst * nearest;
+    for (int round = 0; round < kMostRounds && (reach > nearest || least_scale_ > motion_.apart || step > kStill);
+         ++round) {
       check_cancelled();
       others.sort(reach);
       find_pairs(others);
       require_overlap();
       step = move(others, reach > nearest);
+      if (reach <= nearest) least_scale_ *= kShrinks;
       reach = std::max(nearest, kShrinks * reach);
     }
     const Vec3 turned = motion_.motion.apply(middle_);
@@ -194,11 +200,12 @@ class Registration {
     }
     constexpr double kLeastScale = 1e-7;  // [m]
     motion_.apart = std::max(kLeastScale, kMad * median_of(sizes));
+    const double scale = std::max(motion_.apart, least_scale_);
     Eigen::Matrix<double, 6, 6> matrix = Eigen::Matrix<double, 6, 6>::Zero();
     Motion6 rhs = Motion6::Zero();
     double weight = 0.0;
     for (const Pair& pair : pairs) {
-      const double x = pair.off / (kTukey * motion_.apart);
+      const double x = pair.off / (kTukey * scale);
       if (!(std::fabs(x) < 1.0)) continue;
       const double w = (1.0 - x * x) * (1.0 - x * x);
       weight += w;
@@ -208,9 +215,10 @@ class Registration {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(matrix);
     // a plain rail tells no shift along it: what normals seem to tell of that is their own noise, some 0.4 of that of a
     // piece's place over its size
-    constexpr double kOfBest = 1e-4, kFewPieces = 0.04, kOfNormals = 0.8;
+    constexpr double kOfBest = 1e-4, kFewPieces = 0.04, kOfNormals = 0.8, kOfOutliers = 0.5;
+    const double noise = std::max(motion_.apart, kOfOutliers * least_scale_);
     const double least = far ? kOfBest * eigen.eigenvalues()[5]
-                             : std::max(kFewPieces, weight * std::pow(kOfNormals * motion_.apart / others.size(), 2));
+                             : std::max(kFewPieces, weight * std::pow(kOfNormals * noise / others.size(), 2));
     Motion6 step = Motion6::Zero(), variance = Motion6::Zero();
     motion_.open = 0;
     for (Eigen::Index k = 0; k < 6; ++k) {
@@ -237,6 +245,7 @@ class Registration {
   std::vector<std::size_t> sample_, pairs_;
   Vec3 middle_ = Vec3::Zero();
   double lever_ = 0.0;
+  double least_scale_ = 0.0;  ///< of pairs, by which they count [m]
   ScanMotion motion_;
 };
 
