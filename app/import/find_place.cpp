@@ -559,9 +559,10 @@ SeparateRails separate_rails(Clouds both, const io::ImportSettings& settings, io
     if (doubt.name == "several_rails" || doubt.name == "switch")
       report.warnings.push_back(fmt::format("{}: {}", doubt.name, doubt.text));
   SeparateRails out;
+  out.clouds[0] = both;
+  out.clouds[1] = std::move(both);
   for (const std::size_t side : {0u, 1u}) {
     Clouds& one = out.clouds[side];
-    one = both;
     keep_points(one.cloud, [&](std::size_t i) {
       return rails.of_point[i] == (side == 0 ? scans::TrackRail::left : scans::TrackRail::right);
     });

@@ -497,7 +497,12 @@ io::ImportReport import_both(const ImportRequest& request, const Progress& progr
     RailOfTrack rail{std::move(rails.clouds[side]), read, staged};
     rail.read.removed.push_back({"of no rail, or the other one", points - rail.cloud.cloud.points.size(),
                                  "farther than 250 mm from the middle of this rail's head"});
-    reports[side] = import_checked(of_rail, progress, &rail);
+    try {
+      reports[side] = import_checked(of_rail, progress, &rail);
+    } catch (const Error& error) {
+      throw Error(error.kind(), fmt::format("the {} rail: {}", side == 0 ? "left" : "right", error.message()),
+                  error.where(), error.advice());
+    }
     reports[side].settings_toml = io::import_settings_toml(settings);
     sides[side] = std::move(rail.side);
   }

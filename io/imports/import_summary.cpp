@@ -15,7 +15,7 @@ namespace treadmark::io {
 namespace {
 
 constexpr std::size_t kLabel = 24, kSummaryLine = 110;  // characters
-constexpr std::size_t kMostDamageLines = 5, kMostHoleLines = 3, kMostInputs = 5;
+constexpr std::size_t kMostDamageLines = 5, kMostHoleLines = 3, kMostInputs = 5, kMostClassLines = 12;
 
 /// Control characters become blanks, so that a name cannot break the lines.
 std::string one_line(std::string text) {
@@ -158,9 +158,13 @@ void add_fit(Page& page, const ImportReport& report) {
     page.row("distance of points", fmt::format("{} (along {}, across {})", length_text(report.spacing),
                                                length_text(report.gap_a), length_text(report.gap_s)));
     page.row("noise", length_text(report.noise));
-    for (const ImportReport::NoiseClass& one : report.noise_classes)
+    for (std::size_t i = 0; i < std::min(report.noise_classes.size(), kMostClassLines); ++i) {
+      const ImportReport::NoiseClass& one = report.noise_classes[i];
       page.row(
           "", fmt::format("{} times that: {} ({} points)", shown_number(one.factor, 3), one.name, grouped(one.points)));
+    }
+    if (report.noise_classes.size() > kMostClassLines)
+      page.row("", fmt::format("and {} more classes of points", report.noise_classes.size() - kMostClassLines));
   }
   if (report.sections) {
     const ImportReport::Sections& s = *report.sections;
@@ -196,9 +200,12 @@ void add_track(Page& page, const ImportReport& report) {
   if (!report.track) return;
   const ImportReport::Track& track = *report.track;
   page.heading("track, of which this is the right rail");
-  page.row("gauge", fmt::format("{} to {} mm, {} mm in the mean of {} places", shown_number(1e3 * track.gauge_least, 2),
-                                shown_number(1e3 * track.gauge_greatest, 2), shown_number(1e3 * track.gauge_mean, 2),
-                                track.places.size()));
+  page.row("gauge",
+           std::isnan(track.gauge_mean)
+               ? std::string("not known")
+               : fmt::format("{} to {} mm, {} mm in the mean of {} places", shown_number(1e3 * track.gauge_least, 2),
+                             shown_number(1e3 * track.gauge_greatest, 2), shown_number(1e3 * track.gauge_mean, 2),
+                             track.places.size()));
   const auto [least, greatest] = std::minmax_element(track.places.begin(), track.places.end(),
                                                      [](const auto& a, const auto& b) { return a.cant < b.cant; });
   page.row("cant", track.places.empty() || std::isnan(least->cant)

@@ -19,8 +19,10 @@ struct TrackRails {
   Vec3 forward = Vec3::Zero();  ///< from the beginning of the line to its end, in the cloud's frame; left and right so
 };
 
-/// Finds the other rail of a track beside one whose line is known: the densest strip about as high as its head, 0.5 to
-/// 1.9 m beside it. What lies within 0.25 m of a rail belongs to it. points: [m] in the cloud's frame. Deterministic.
+/// Finds the other rail of a track beside one whose line is known: 0.5 to 1.9 m beside it, and up to 0.45 m higher or
+/// lower, for the line may be rolled against the track, most points that are as wide and as deep as a head and stand
+/// free to both sides; where none does, to one or none. What lies within 0.25 m of a rail belongs to it. points: [m] in
+/// the cloud's frame. Deterministic.
 /// Errors: Error(input_data) where there is no other rail.
 TrackRails separate_rails(std::span<const Vec3> points, const RailLine& line);
 

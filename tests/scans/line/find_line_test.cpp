@@ -316,6 +316,30 @@ TEST(FindLine, APieceTellsTheUnit) {
   }
 }
 
+/// Seen from a frame that is level, in a track with cant, and with sleepers that have as many points as the heads.
+TEST(TrackRails, AreToldFromSleepers) {
+  constexpr double kLength = 6.0, kApart = 1.507, kLower = 0.15, kSleepers = 0.172;
+  const Frames curve = circle(1.0 / 300.0);
+  const FoundLine found = found_in(bent(straight_rail(kLength, 15e3, false), curve));
+  std::vector<Vec3> all = straight_rail(kLength, 3e3, false, 1), other = straight_rail(kLength, 3e3, false, 2);
+  for (Vec3& p : other) p += Vec3(0.0, kApart, kLower);
+  const std::size_t one = all.size();
+  all.insert(all.end(), other.begin(), other.end());
+  const std::size_t both = all.size();
+  Random random(3);
+  constexpr std::size_t kOfSleepers = 600'000;
+  for (std::size_t k = 0; k < kOfSleepers; ++k) {
+    const double y = 2.7 * random.uniform() - 0.6;
+    all.emplace_back(kLength * random.uniform(), y, kSleepers + y * kLower / kApart + 5e-3 * random.uniform());
+  }
+  const TrackRails rails = separate_rails(bent(all, curve), found.line);
+  EXPECT_EQ(rails.other, TrackRail::right);
+  std::size_t wrong = 0;
+  for (std::size_t k = 0; k < both; ++k)
+    wrong += rails.of_point[k] == (k < one ? TrackRail::left : TrackRail::right) ? 0 : 1;
+  EXPECT_EQ(wrong, 0u);
+}
+
 TEST(LineThrough, RefusesWhatIsNoLine) {
   const std::vector<Vec3> one{Vec3::Zero()}, twice{Vec3::Zero(), Vec3::Zero()},
       back{Vec3::Zero(), Vec3(2.0, 0.0, 0.0), Vec3(1.0, 0.1, 0.0)};
