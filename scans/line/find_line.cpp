@@ -3,7 +3,7 @@
 #include "treadmark/scans/line/find_line.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -381,7 +381,7 @@ class LineSearch {
   /// Where windows in a row lie off the line together, by more than they scatter.
   std::vector<LineKink> kinks() const {
     constexpr double kSpan = 0.5, kMatters = 20e-6, kLever = 30e-3;  // [m]
-    constexpr double kSure = 60.0;  // chi squared with three degrees of freedom: never by chance
+    constexpr double kSure = 60.0, kSureOfOne = 16.0;  // chi squared with three degrees of freedom, and with one
     const double window = (to_ - from_) / static_cast<double>(windows_.size());
     const std::size_t run = to_whole<std::size_t>(std::max(2.0, std::ceil(kSpan / window)));
     std::vector<Vec3> off;  // y, z, roll
@@ -397,8 +397,14 @@ class LineSearch {
       Vec3 sum = Vec3::Zero();
       for (std::size_t i = k; i < k + run; ++i)
         information += aims_[i].information, sum += aims_[i].information * off[i];
-      const Vec3 mean = information.ldlt().solve(sum);
-      const double size = std::hypot(mean.x(), mean.y()) + kLever * std::fabs(mean.z());
+      const Mat3 inverse = information.inverse();
+      const Vec3 mean = inverse * sum;
+      // what is hardly known, as the place across of a head without its sides, is not far off
+      const auto size_of = [&](Eigen::Index part) {
+        const double variance = scatter_ * scatter_ * inverse(part, part);
+        return mean[part] * mean[part] > kSureOfOne * variance ? std::fabs(mean[part]) : 0.0;
+      };
+      const double size = std::hypot(size_of(0), size_of(1)) + kLever * size_of(2);
       if (!(size > kMatters) || !(sum.dot(mean) > kSure * scatter_ * scatter_)) continue;
       const LineKink kink{aims_[k].along - 0.5 * window, aims_[k + run - 1].along + 0.5 * window, size};
       if (out.empty() || kink.from > out.back().to)
