@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "treadmark/scans/fit/error_sources.hpp"
 #include "treadmark/tests/scans/cleaning/band_samples.hpp"
 
 namespace treadmark::scans {
@@ -85,14 +84,6 @@ TEST(NoiseFactors, FewPointsDifferByChance) {
   constexpr std::size_t kPasses = 250;
   for (std::size_t i = 0; i < two.pass.size(); ++i) two.pass[i] = static_cast<std::uint16_t>(i % kPasses);
   EXPECT_TRUE(two.factors().empty());
-}
-
-/// What points scatter by themselves is nothing that they share, however unlike they are.
-TEST(NoiseFactors, UnlikePointsShareNoErrors) {
-  TwoPasses two(20e-6, 80e-6);
-  ASSERT_EQ(two.factors().size(), 2u);
-  constexpr double kByChance = 1.3;
-  EXPECT_LT(shared_scatter(two.points, two.noise, two.points.d).ratio, kByChance);
 }
 
 /// Without a limit for outliers the noise of passes is told all the same.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -44,6 +45,8 @@ struct Sheet {
     points.begin.push_back(static_cast<std::uint32_t>(residual.size()));
     points.d.assign(residual.size(), 0.0F);
     points.state.assign(residual.size(), PointState::used);
+    points.index.resize(residual.size());
+    std::iota(points.index.begin(), points.index.end(), std::uint32_t{0});
   }
 };
 
@@ -52,6 +55,17 @@ TEST(SharedScatter, IsNoneWhereEveryPointScattersByItself) {
   const SharedScatter found = shared_scatter(sheet.points, sheet.noise, sheet.residual);
   EXPECT_EQ(found.ratio, 1.0);
   EXPECT_EQ(found.length, 0.0);
+}
+
+TEST(SharedScatter, IsNoneWherePointsScatterByTheirOwnNoise) {
+  constexpr float kNoisier = 4.0F;
+  Sheet sheet(300, 120, 2, 0.0, 1);
+  sheet.noise.factor.assign(sheet.residual.size(), 1.0F);
+  for (std::size_t i = 0; i < sheet.residual.size(); i += 3)
+    sheet.residual[i] *= kNoisier, sheet.noise.factor[i] = kNoisier;
+  EXPECT_EQ(shared_scatter(sheet.points, sheet.noise, sheet.residual).ratio, 1.0);
+  sheet.noise.factor = {};
+  EXPECT_GT(shared_scatter(sheet.points, sheet.noise, sheet.residual).ratio, 2.0) << "what it would be taken for";
 }
 
 /// The variance of the mean of a block of 4 by 4 cells, 32 points, is the shared one and a 32nd of their scatter's.
