@@ -166,11 +166,12 @@ class ErrorFields {
 }  // namespace
 
 SharedScatter shared_scatter(const BandPoints& points, const LocalNoise& noise, std::span<const float> residual) {
-  constexpr std::size_t kLargest = 32, kFewestBlocks = 50;  // cells to a side
+  constexpr std::size_t kLargest = 32, kFewestBlocks = 200;  // cells to a side
   constexpr double kMedian = 0.4549364, kError = 2.33;  // of chi-squared of one, and of a median over its root count
   constexpr double kSure = 4.0, kMost = 0.8;
   std::vector<std::pair<double, double>> ratios;  // with lengths
   SharedScatter out;
+  double surest = 1.0;  // few blocks count less
   for (std::size_t side = 1; side <= kLargest; side *= 2) {
     std::vector<double> squares;
     for (std::size_t row = 0; row < points.rows; row += side)
@@ -181,7 +182,7 @@ SharedScatter shared_scatter(const BandPoints& points, const LocalNoise& noise, 
     const double by_chance = 1.0 + kSure * kError / std::sqrt(static_cast<double>(squares.size())),
                  ratio = median_of(squares) / kMedian;
     ratios.emplace_back(ratio, static_cast<double>(side) * std::sqrt(points.cell_a * points.cell_s));
-    if (ratio > by_chance) out.ratio = std::max(out.ratio, ratio);
+    if (ratio / by_chance > surest) surest = ratio / by_chance, out.ratio = ratio;
   }
   for (const auto& [ratio, length] : ratios)
     if (out.ratio > 1.0 && out.length == 0.0 && ratio >= kMost * out.ratio) out.length = length;

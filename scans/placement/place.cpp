@@ -215,11 +215,12 @@ std::vector<SurfaceErrors::Motion> errors_of_match(const Mat3& covariance) {
 }
 
 /// Of a wheel: across, by the match or what tells it otherwise; its axle by the scatter of the points. A lean of the
-/// axle turns the section, and moves it across by the radius.
+/// axle turns the section, and moves it across by the radius. The radius follows from the place of the axle: of a short
+/// arc both are off by the same.
 std::vector<SurfaceErrors::Motion> errors_of_wheel(const Placement& found, double across) {
   constexpr double kOneAxis = 0.5 * std::numbers::sqrt2;  // of two that errors of the axle have
   const double lean = kOneAxis * found.direction_error,
-               height = std::hypot(found.radius_error, kOneAxis * found.position_error);
+               height = std::max(found.radius_error, kOneAxis * found.position_error);
   std::vector<SurfaceErrors::Motion> out;
   if (across > 0.0) out.push_back({ErrorSource::lateral, across, 0.0, 0.0});
   if (lean > 0.0) out.push_back({ErrorSource::tilt, -found.nominal_radius * lean, 0.0, lean});
