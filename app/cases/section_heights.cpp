@@ -114,16 +114,21 @@ std::vector<double> places_across(const Surface& surface, double step) {
 std::vector<SectionPlace> places_of_section(std::span<const double> arcs, std::span<const double> y,
                                             std::span<const double> z, std::span<const double> places) {
   constexpr double kSteepest = 0.2;  // beyond it heights tell nothing
+  std::vector<double> cosines;       // of pieces
+  for (std::size_t i = 0; i + 1 < y.size(); ++i) {
+    const double dy = std::abs(y[i + 1] - y[i]);
+    cosines.push_back(dy > 0.0 ? dy / std::hypot(dy, z[i + 1] - z[i]) : 0.0);
+  }
   std::vector<SectionPlace> out;
   for (const double place : places) {
     const bool first = std::abs(place - y.front()) < std::abs(place - y.back());
     double arc = first ? arcs.front() : arcs.back(), flattest = 0.0;
-    for (std::size_t i = 0; i + 1 < y.size(); ++i) {
+    for (std::size_t i = 0; i < cosines.size(); ++i) {
       const double dy = y[i + 1] - y[i], share = dy != 0.0 ? (place - y[i]) / dy : -1.0;
-      const double cosine = std::abs(dy) / std::hypot(dy, z[i + 1] - z[i]);
-      if (share < 0.0 || share > 1.0 || cosine <= flattest) continue;
-      flattest = cosine, arc = arcs[i] + share * (arcs[i + 1] - arcs[i]);
+      if (share < 0.0 || share > 1.0 || cosines[i] <= flattest) continue;
+      flattest = cosines[i], arc = arcs[i] + share * (arcs[i + 1] - arcs[i]);
     }
+    if (flattest == 0.0) flattest = first ? cosines.front() : cosines.back();  // beyond the ends as at them
     out.push_back({arc, std::max(flattest, kSteepest)});
   }
   return out;
@@ -141,7 +146,7 @@ double extent_of(const SourceOfErrors& source, std::span<const double> places) {
 
 std::vector<SourceOfErrors> sources_of_errors(const SurfaceErrors& errors, Body body, double u,
                                               const Surface& surface) {
-  constexpr double kFinest = 0.25e-3;  // of knots [m]
+  constexpr double kFinest = 0.25e-3, kShortest = 1e-3;  // of knots; of errors of their own, which are to be few [m]
   std::vector<SourceOfErrors> out;
   const auto put = [&](ErrorSource source, SectionHeights one) {
     const std::string name = fmt::format("{} of the {}", name_of(source), body == Body::rail ? "rail" : "wheel");
@@ -155,7 +160,7 @@ std::vector<SourceOfErrors> sources_of_errors(const SurfaceErrors& errors, Body 
   const std::vector<SectionPlace> of_section = places_of_section(arcs, errors.y, errors.z, places);
   for (const SurfaceErrors::Field& field : errors.fields) {
     const BrokenLine sigma(arcs, field.at(nearest));
-    const double length = std::max(field.length, kFinest);
+    const double length = std::max(field.length, kShortest);
     const auto last = to_whole<int>(std::ceil(arcs.back() / length));
     for (int k = 0; k <= last; ++k) {
       SectionHeights one{body == Body::rail ? Facing::up : Facing::down, places.front(), kFinest, {}};

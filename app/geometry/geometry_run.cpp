@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -69,7 +70,8 @@ NaturalSurface surface_of(const GeometryRequest& request, const std::string& nam
 NaturalSurface with_errors(const NaturalSurface& natural, int draw) {
   SurfaceSpec spec = natural.spec;
   auto& profile = std::get<Profile>(spec.shape);
-  profile = measured::ErrorDraws(profile).moved(profile, static_cast<std::size_t>(draw));
+  const measured::ErrorDraws draws(profile);
+  profile = draws.moved(profile, static_cast<std::size_t>(draw) % std::max<std::size_t>(1, draws.size()));
   return create_natural(std::move(spec));
 }
 
@@ -220,34 +222,37 @@ std::shared_ptr<const geometry::Section> SectionStore::get(const GeometryRequest
   const std::string key =
       fmt::format("{}|{}|{}|{}|{}|{}|{}|{}", name, body_name(body), body == Body::rail ? cant : 0.0, request.pitch,
                   request.x, request.scale_to_mm, request.backend, request.resolution);
-  std::optional<NaturalSurface> noisy;
+  constexpr std::size_t kOfProfile = 8, kMost = 2000, kMostScans = 32;  // of long lists whose files come once
+  std::shared_ptr<const NaturalSurface> natural;
+  bool drawn = false;  // a draw of an exact shape is the shape
   {
     const std::lock_guard lock(mutex_);
-    if (const auto found = noisy_.find({name, body}); found != noisy_.end() && request.draw > 0) noisy = found->second;
-    // a draw of an exact shape is the shape
-    if (const auto found = sections_.find(key); found != sections_.end() && !noisy) return found->second;
+    drawn = request.draw > 0 && draws_.contains({name, body});
+    if (const auto found = sections_.find(key); found != sections_.end() && !drawn) return found->second;
+    if (const auto found = noisy_.find({name, body}); found != noisy_.end() && drawn) natural = found->second;
   }
-  const bool points = noisy && noisy_profile(*noisy) != nullptr;
-  const NaturalSurface natural = points  ? with_errors(*noisy, request.draw)
-                                 : noisy ? *noisy
-                                         : surface_of(request, name, body);
-  const SurfaceErrors* errors = noisy && !points ? natural.spec.errors.get() : nullptr;
-  auto section = std::make_shared<const geometry::Section>(section_of(request, name, body, cant, natural, errors));
-  if (noisy) return section;
-  constexpr std::size_t kMost = 2000;  // of long lists whose files come once
+  if (natural == nullptr) natural = std::make_shared<const NaturalSurface>(surface_of(request, name, body));
+  const bool points = noisy_profile(*natural) != nullptr;
+  auto section = std::make_shared<const geometry::Section>(
+      drawn && points ? section_of(request, name, body, cant, with_errors(*natural, request.draw))
+                      : section_of(request, name, body, cant, *natural, drawn ? natural->spec.errors.get() : nullptr));
   const std::lock_guard lock(mutex_);
-  if (!natural.note.empty()) notes_[name] = natural.note;
-  if (sections_.size() >= kMost) sections_.clear(), noisy_.clear();
-  if (noisy_profile(natural) != nullptr || natural.spec.errors) noisy_.try_emplace({name, body}, natural);
+  if (points || natural->spec.errors) {
+    draws_.try_emplace({name, body}, points ? kOfProfile : kNearestDraws);
+    // what goes is read again
+    if (noisy_.size() >= (points ? kMost : kMostScans) && !noisy_.contains({name, body})) noisy_.clear();
+    noisy_.try_emplace({name, body}, natural);
+  }
+  if (drawn) return section;
+  if (!natural->note.empty()) notes_[name] = natural->note;
+  if (sections_.size() >= kMost) sections_.clear();
   return sections_.try_emplace(key, std::move(section)).first->second;
 }
 
 std::size_t SectionStore::draws_of(const std::string& name, Body body) {
-  constexpr std::size_t kOfProfile = 8;
   const std::lock_guard lock(mutex_);
-  const auto found = noisy_.find({name, body});
-  if (found == noisy_.end()) return 0;
-  return noisy_profile(found->second) != nullptr ? kOfProfile : kNearestDraws;
+  const auto found = draws_.find({name, body});
+  return found == draws_.end() ? 0 : found->second;
 }
 
 std::string SectionStore::note_of(const std::string& name) {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -75,7 +76,9 @@ class SectionStore {
  private:
   std::mutex mutex_;
   std::map<std::string, std::string> notes_;
-  std::map<std::pair<std::string, Body>, NaturalSurface> noisy_;  ///< what errors are drawn of; a case names both
+  using Named = std::pair<std::string, Body>;                     ///< a case names both bodies
+  std::map<Named, std::size_t> draws_;                            ///< of which there are any
+  std::map<Named, std::shared_ptr<const NaturalSurface>> noisy_;  ///< what they are of; scans are large: some of them
   std::map<std::string, std::shared_ptr<const geometry::Section>> sections_;
 };
 
