@@ -33,8 +33,8 @@
 namespace treadmark::app {
 namespace {
 
-constexpr std::size_t kChecked = 8, kSamples = 200, kUnaskedSamples = 48;  ///< solutions
-constexpr std::size_t kMostUnasked = 2;                                    ///< cases
+/// Solutions; of surfaces alone fewer, since their draws tell no more.
+constexpr std::size_t kChecked = 8, kSamples = 200, kSurfaceSamples = 48;
 constexpr double kBent = 0.3;  ///< by how much of a deviation derivatives may miss solutions, root mean square
 
 using Numbers = std::vector<double>;
@@ -386,27 +386,21 @@ bool has_imported_errors(const io::WheelRailCase& input, SurfaceStore& store) {
   return has(input.rail, Body::rail) || has(input.wheel, Body::wheel);
 }
 
-/// Of which of the cases, in the order of their results, samples of how many solutions may be drawn; 0: no error bars.
-std::vector<std::size_t> samples_of(const io::RunResult& result, const io::CaseFile& file, SurfaceStore& store) {
-  std::vector<std::size_t> out;
-  std::size_t unasked = 0;
-  auto c = file.cases.begin();
-  for (const io::CaseResult& solved : result.cases) {
-    while (c->number != solved.number) ++c;
-    out.push_back(0);
-    const auto* input = std::get_if<io::WheelRailCase>(&c->content);
-    if (input == nullptr || input->error_bars == io::ErrorBars::never) continue;
-    if (input->error_bars == io::ErrorBars::always || !input->uncertainty.empty())
-      out.back() = kSamples;
-    else if (unasked <= kMostUnasked && solved.status == Status::ok && !solved.patches.empty() && starts_anew(*c) &&
-             has_imported_errors(*input, store))
-      out.back() = kUnaskedSamples, ++unasked;
-  }
-  if (unasked > kMostUnasked) ranges::replace(out, kUnaskedSamples, std::size_t{0});
-  return out;
+}  // namespace
+
+bool wants_error_bars(const io::Case& c) {
+  const auto* input = std::get_if<io::WheelRailCase>(&c.content);
+  return input != nullptr && input->error_bars != io::ErrorBars::never &&
+         (!input->uncertainty.empty() || input->error_bars == io::ErrorBars::always);
 }
 
-}  // namespace
+bool may_have_error_bars(const io::CaseFile& file, SurfaceStore& store) {
+  return ranges::none_of(file.cases, wants_error_bars) && ranges::any_of(file.cases, [&](const io::Case& c) {
+           const auto* input = std::get_if<io::WheelRailCase>(&c.content);
+           return input != nullptr && input->error_bars == io::ErrorBars::automatic &&
+                  has_imported_errors(*input, store);
+         });
+}
 
 void add_uncertainty(io::RunResult& result, const io::CaseFile& file, SurfaceStore& store, const Progress& progress) {
   const SampledRegions regions = sampled_regions(file);
@@ -414,18 +408,18 @@ void add_uncertainty(io::RunResult& result, const io::CaseFile& file, SurfaceSto
   std::size_t finished = 0;
   try {
     const CancellationScope scope(progress.stop);
-    const std::vector<std::size_t> samples = samples_of(result, file, store);
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-      io::CaseResult& solved = result.cases[k];
+    for (io::CaseResult& solved : result.cases) {
       while (c->number != solved.number) ++c;
-      if (samples[k] == 0) continue;
+      if (!wants_error_bars(*c)) continue;
       check_cancelled();
+      const bool of_surfaces = std::get<io::WheelRailCase>(c->content).uncertainty.empty();
+      const std::size_t samples = of_surfaces ? kSurfaceSamples : kSamples;
       const auto tell = [&](const std::string& more) {
         if (progress.report)
           progress.report(finished, result.cases.size(), fmt::format("uncertainty of case {}{}", solved.number, more));
       };
-      solved.uncertainty = uncertainty_of(*c, solved, store, regions, samples[k], [&](std::size_t drawn) {
-        tell(fmt::format(", {} of {} solutions", drawn, samples[k]));
+      solved.uncertainty = uncertainty_of(*c, solved, store, regions, samples, [&](std::size_t drawn) {
+        tell(fmt::format(", {} of {} solutions", drawn, samples));
       });
       ++finished;
       tell("");

@@ -15,6 +15,7 @@
 #include "treadmark/app/cases/output_files.hpp"
 #include "treadmark/app/cases/pages/run_page.hpp"
 #include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/app/cases/uncertainty.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
@@ -87,12 +88,7 @@ int exit_status(const io::RunResult& result) {
 bool is_list(const io::ListedCases& given, const RunOptions& options) {
   const bool all_shown =
       options.fields || options.verbose || options.bodies || options.sensitivities || !options.report_file.empty();
-  const auto with_errors = [](const io::Case& c) {
-    const auto* input = std::get_if<io::WheelRailCase>(&c.content);
-    return input != nullptr && input->error_bars != io::ErrorBars::never &&
-           (!input->uncertainty.empty() || input->error_bars == io::ErrorBars::always);
-  };
-  return !all_shown && ranges::none_of(given.file.cases, with_errors) &&
+  return !all_shown && ranges::none_of(given.file.cases, app::wants_error_bars) &&
          (given.rows != nullptr || given.file.cases.size() > app::kLongList);
 }
 
@@ -201,6 +197,10 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     print_notes(file.notes, common.quiet);
     print_notes(result.doubts, common.quiet);
     print_fits(result.surfaces, common.quiet);
+    if (result.complete && app::may_have_error_bars(file, store))
+      print_notes({"the import of a surface tells how well it is known: --set case.error_bars=always gives results "
+                   "their error bars, which cost dozens of solutions more"},
+                  common.quiet);
     if (!folders.empty() || !options.report_file.empty()) app::add_surfaces(result, file, store);
     if (!folders.empty()) print_notes(app::write_result_folder(folders[k], result, options.bodies), common.quiet);
     write_report_file(options.report_file, [&] {

@@ -61,9 +61,8 @@ void add_case(KeyList& list) {
 
   list.choice<W, ErrorBars>(
       "case.error_bars", {{"auto", ErrorBars::automatic}, {"always", ErrorBars::always}, {"never", ErrorBars::never}},
-      "how well results are known: auto: where the case says how well it is (case.uncertainty) or, of at most two "
-      "cases, "
-      "the import of its surfaces does; always: also of more, and by the noise of profiles; never",
+      "how well results are known: auto: where the case says how well it is (case.uncertainty); always: also where "
+      "only the import of its surfaces does, or the noise of its profiles; never",
       [](W& c) -> ErrorBars& { return c.error_bars; });
   KeyInfo uncertainty = key_info("case.uncertainty", KeyType::table_list,
                                  "how well what is given is known, for error bars of the results");

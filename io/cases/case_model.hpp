@@ -148,8 +148,8 @@ struct UncertainInput {
   double length = 0.0;  ///< of a shape: places so far apart have errors of their own, with a spline between them [m]
 };
 
-/// Which cases get error bars: those that say how well they are known and, where there are few, those with surfaces of
-/// which their import does; these whatever there are; none.
+/// Which cases get error bars: those that say how well they are known; those, too, of which only the surfaces say it;
+/// none.
 enum class ErrorBars { automatic, always, never };
 
 /// Friction that differs from place to place of a wheel on a rail; between the positions laws are interpolated.
