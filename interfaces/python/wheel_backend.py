@@ -32,9 +32,10 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         (stage / "setup.py").write_text(SETUP)
         cmake("--install", build, "--component", "python", "--prefix", stage / "installed")
         shutil.copytree(next((stage / "installed").rglob("_treadmark*.so")).parent, stage / "treadmark")
-        for module in (build / "lib" / "treadmark").glob("*.so"):  # is looked for in this folder beside the one that loads it
-            (stage / "treadmark" / "treadmark").mkdir(exist_ok=True)
-            shutil.copy(module, stage / "treadmark" / "treadmark")
+        for program in (build / "lib" / "treadmark").glob("treadmark-*"):  # is looked for in this folder beside the module that starts it
+            if program.suffix == "":
+                (stage / "treadmark" / "treadmark").mkdir(exist_ok=True)
+                shutil.copy(program, stage / "treadmark" / "treadmark")
         os.chdir(stage)
         try:
             return build_meta.build_wheel(wheel_directory)

@@ -17,11 +17,14 @@ if os.environ.get("CI") != "true":
             pytest.skip(f"needs the Debian package {package}", allow_module_level=True)
 
 WORK = """
-import importlib.metadata, treadmark as tm
+import importlib.metadata, os, treadmark as tm
 rail = tm.Surface.standard("60E1")
 print(importlib.metadata.version("treadmark"), tm.__version__, tm.__file__)
 print(tm.Pair(rail, tm.Surface.standard("S1002"), tm.Problem(vertical_force=80e3, dx=2e-3, ds=2e-3)).solve().status)
 print(rail.represent("offset").backend)
+if tm.parts()["openvdb"]:  # a program of its own, which the wheel holds; it would be found in the build, too
+    assert os.access(os.path.join(os.path.dirname(tm.__file__), "treadmark", "treadmark-openvdb"), os.X_OK)
+    rail.with_defects(squats=[{"length_mm": 40.0, "width_mm": 30.0, "depth_mm": 0.5}]).save("squat.vdb", 2e-3)
 """
 
 
