@@ -9,9 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <fstream>
+#include <numbers>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "treadmark/backends/offset/nano_file.hpp"
 #include "treadmark/backends/offset/sheet_grid.hpp"
 #include "treadmark/backends/offset/vdb_file.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/number_text.hpp"
@@ -63,11 +65,13 @@ void append_trailer(std::string& bytes) {
 /// The transform may have been changed by another program since the entry 'frame' was written. Returns what was
 /// changed, in words.
 std::string take_transform(const SheetFile& sheet, SheetFrame& f, const fs::path& file) {
-  const auto near = [](double a, double b) { return std::fabs(a - b) <= 1e-12 * (std::fabs(a) + std::fabs(b)); };
-  if (near(f.u0, sheet.u0) && near(f.y0, sheet.y0) && near(f.du, sheet.du) && near(f.dy, sheet.dy)) return {};
   const auto refuse = [&](const char* why, const char* advice) {
     throw Error(ErrorKind::input_data, why, {file.string()}, advice);
   };
+  if (!(sheet.du > 0.0) || !(sheet.dy > 0.0) || !std::isfinite(sheet.du + sheet.dy + sheet.u0 + sheet.y0))
+    refuse("the steps of the offsets must be positive", "write the file again");
+  const auto near = [](double a, double b) { return std::fabs(a - b) <= 1e-12 * (std::fabs(a) + std::fabs(b)); };
+  if (near(f.u0, sheet.u0) && near(f.y0, sheet.y0) && near(f.du, sheet.du) && near(f.dy, sheet.dy)) return {};
   constexpr double kMostScaled = 3.0;
   const double along = sheet.du / f.du, across = sheet.dy / f.dy;
   if (std::max({along, across, 1.0 / along, 1.0 / across}) > kMostScaled)
@@ -107,27 +111,37 @@ VdbFile open_vdb(const fs::path& file, const VdbWords& words) {
   if (!fs::is_regular_file(file, problem))
     throw Error(ErrorKind::input_data, "the VDB file is not a regular file", {file.string()});
   std::ifstream in(file, std::ios::binary | std::ios::ate);
-  const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : -1;
-  if (size < 0) throw Error(ErrorKind::input_data, "the VDB file cannot be read", {file.string()});
-  std::vector<char> data(static_cast<std::size_t>(size));
-  in.seekg(0);
-  if (size > 0 && !in.read(data.data(), size))
-    throw Error(ErrorKind::input_data, "the VDB file cannot be read", {file.string()});
-  const auto refuse = [&](const char* why, const char* advice) {
+  const std::streamoff end = in ? static_cast<std::streamoff>(in.tellg()) : -1;
+  const auto refuse = [&](const char* why, const char* advice = "") {
     throw Error(ErrorKind::input_data, why, {file.string()}, advice);
   };
-  if (data.empty()) refuse("the VDB file is empty", "write it again");
-  if (data.size() < kVdbMagic.size() || !std::equal(kVdbMagic.begin(), kVdbMagic.end(), data.begin()))
-    refuse("this is not a VDB file", "was it written by OpenVDB, or by treadmark convert?");
-  const char* trailer = data.data() + data.size() - kTrailer;
-  if (data.size() < kTrailer + kVdbMagic.size() || !std::equal(kMark.begin(), kMark.end(), trailer))
-    return {start_openvdb(file.string()), file, data.size(), words};  // OpenVDB wrote it
-  std::uint64_t covered = 0, sum = 0;
-  std::memcpy(&covered, trailer + 8, sizeof(covered));
-  std::memcpy(&sum, trailer + 16, sizeof(sum));
-  if (covered != data.size() - kTrailer || sum != sum_of(data.data(), data.size() - kTrailer))
+  if (end < 0) refuse("the VDB file cannot be read");
+  const auto size = static_cast<std::uint64_t>(end);
+  const auto take = [&](std::uint64_t at, char* to, std::uint64_t count) {
+    if (!in.seekg(static_cast<std::streamoff>(at)).read(to, static_cast<std::streamsize>(count)))
+      refuse("the VDB file cannot be read");
+  };
+  if (size == 0) refuse("the VDB file is empty", "write it again");
+  std::array<char, 8> magic{}, mark{};
+  if (size >= magic.size()) take(0, magic.data(), magic.size());
+  if (magic != kVdbMagic) refuse("this is not a VDB file", "was it written by OpenVDB, or by treadmark convert?");
+  if (size < kVdbMagic.size() + kTrailer) return {start_openvdb(file.string()), file, size, words};
+  const std::uint64_t content = size - kTrailer;
+  take(content, mark.data(), mark.size());
+  if (mark != kMark) return {start_openvdb(file.string()), file, size, words};  // OpenVDB wrote it
+  std::array<std::uint64_t, 2> told{};                                          // number of bytes, sum
+  take(content + mark.size(), reinterpret_cast<char*>(told.data()), sizeof(told));
+  std::vector<char> part(std::size_t{1} << 20);
+  std::uint64_t sum = sum_of(nullptr, 0);
+  for (std::uint64_t at = 0; at < content; at += part.size()) {
+    check_cancelled();
+    const std::uint64_t count = std::min<std::uint64_t>(part.size(), content - at);
+    take(at, part.data(), count);
+    sum = sum_of(part.data(), count, sum);
+  }
+  if (told[0] != content || told[1] != sum)
     refuse("the VDB file is damaged: its check sum does not fit", "write or copy it again");
-  return {start_openvdb(file.string()), file, covered, words};
+  return {start_openvdb(file.string()), file, content, words};
 }
 
 void write_vdb(const fs::path& file, const OffsetFile& content) {
@@ -157,14 +171,19 @@ OffsetFile from_sheet(SheetFile sheet, const fs::path& file) {
   from_metadata(sheet.metadata, *offsets, result.base, file.string());
   SheetFrame& f = offsets->frame;
   result.remark = take_transform(sheet, f, file);
-  for (const SheetGrid::Entry& b : sheet.grid.blocks()) {
-    for (int k = 0; k < kBlockI * kBlockJ; ++k)
-      if (!(std::fabs(b.values[k]) <= kAbsurd))
-        throw Error(ErrorKind::input_data, "an offset in the file is no number, or greater than a metre",
-                    {file.string()}, "offsets are in metres");
-    if (f.turn > 0 && (b.key.bi < 0 || b.key.bi * kBlockI >= f.turn))
-      throw Error(ErrorKind::input_data, "voxels in the VDB file lie beyond the turn", {file.string()});
-  }
+  const auto check = [&](const SheetGrid& grid, float most) {
+    for (const SheetGrid::Entry& b : grid.blocks()) {
+      for (int k = 0; k < kBlockI * kBlockJ; ++k)
+        if (!(std::fabs(b.values[k]) <= most))
+          throw Error(ErrorKind::input_data, "an offset in the file is no number, or greater than a metre",
+                      {file.string()}, "offsets are in metres");
+      if (f.turn > 0 && (b.key.bi < 0 || b.key.bi * kBlockI >= f.turn))
+        throw Error(ErrorKind::input_data, "voxels in the VDB file lie beyond the turn", {file.string()});
+    }
+  };
+  check(sheet.grid, kAbsurd);
+  constexpr float kSharpest = 10.0f;  // no coefficient of a cubic spline is so many times what it goes through
+  if (sheet.cubic) check(*sheet.cubic, kSharpest * kAbsurd);
   offsets->grid = std::move(sheet.grid);
   offsets->cubic = std::move(sheet.cubic);
   result.offsets = offsets;

@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <memory>
@@ -206,7 +205,7 @@ void append_grid(std::string& to, const SheetGrid& sheet, const SheetFrame& fram
 class MappedFile {
  public:
   explicit MappedFile(const fs::path& file) {
-    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // pipes are refused
     struct stat about {};
     const bool there = descriptor >= 0 && ::fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode);
     if (there && about.st_size > 0) {
@@ -310,7 +309,8 @@ class NanoReader {
       check.pass();
       const nanovdb::Coord& first = leaves[n].mBBoxMin;
       if (first[0] % kBlockI != 0 || first[1] % kBlockI != 0 || first[2] != 0) damaged();
-      if (std::abs(first[0]) > kFarthest || std::abs(first[1]) > kFarthest / kBlockI) damaged();
+      if (first[0] < -kFarthest || first[0] > kFarthest) damaged();
+      if (first[1] < -kFarthest / kBlockI || first[1] > kFarthest / kBlockI) damaged();
       const SheetEntry entry{{first[0] / kBlockI, first[1] / kBlockI}, leaves[n].mValues};
       if (!blocks.empty() && !(blocks.back().key < entry.key)) damaged();
       if (!std::all_of(entry.values, entry.values + kBlockI * kBlockJ, [](float v) { return std::isfinite(v); }))

@@ -51,8 +51,6 @@ void take_frame(const VdbFile& vdb, const VdbGrid& grid, SheetFile& sheet) {
       if (row != column && t[3 * row + column] != 0.0)
         vdb.refuse("the transform of the offsets must not rotate or shear");
   sheet.u0 = t[9], sheet.y0 = t[10], sheet.du = t[0], sheet.dy = t[4];
-  if (!(sheet.du > 0.0) || !(sheet.dy > 0.0) || !std::isfinite(sheet.du + sheet.dy + sheet.u0 + sheet.y0))
-    vdb.refuse("the steps of the offsets must be positive");
 }
 
 }  // namespace

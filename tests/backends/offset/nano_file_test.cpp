@@ -4,9 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <random>
 #include <string>
 
@@ -159,6 +164,36 @@ TEST_F(NanoFile, HostileNumbersLeadNowhere) {
     read_damaged(random() % (good.size() - 16), 1 + random() % 16, static_cast<char>(random() % 256));
 }
 
+TEST_F(NanoFile, WhatNoOffsetsAreIsRefused) {
+  constexpr std::size_t kGrid = 224, kTree = kGrid + 672, kSteps = kGrid + 384, kPlace = kGrid + 528, kValues = 96;
+  offset::write_vdb(path_, wheel());
+  const std::string good = bytes();
+  const auto number_at = [&](std::size_t at) {
+    std::uint64_t number = 0;
+    std::memcpy(&number, good.data() + at, sizeof(number));
+    return static_cast<std::size_t>(number);
+  };
+  const auto with = [&](std::size_t at, auto value) {
+    std::string bad = good;
+    std::memcpy(bad.data() + at, &value, sizeof(value));
+    put_sealed(bad);
+    return refusal();
+  };
+  constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN(),
+                   kBeyond = std::numeric_limits<double>::infinity();
+  for (const std::size_t step : {kSteps, kSteps + 4 * sizeof(double)})
+    for (const double value : {kNoNumber, kBeyond, -2e-3, 0.0})
+      EXPECT_THAT(with(step, value), HasSubstr("steps of the offsets must be positive")) << value;
+  for (const double value : {kNoNumber, kBeyond})
+    EXPECT_THAT(with(kPlace, value), HasSubstr("steps of the offsets must be positive")) << value;
+  const std::size_t leaf = kTree + number_at(kTree), second = kGrid + number_at(kGrid + 32),
+                    coefficients = second + kTree + number_at(second + kTree) + kValues;
+  for (const std::size_t axis : {0, 4})
+    EXPECT_THAT(with(leaf + axis, std::numeric_limits<std::int32_t>::min()), HasSubstr("damaged"));
+  EXPECT_THAT(with(leaf + kValues, 1.5f), HasSubstr("greater than a metre"));
+  EXPECT_THAT(with(coefficients, 1e30f), HasSubstr("greater than a metre"));
+}
+
 TEST_F(NanoFile, WhatIsNoneOfOursIsNamed) {
   EXPECT_THAT(refusal(), HasSubstr("wheel.nvdb"));  // missing
   put("");
@@ -170,6 +205,9 @@ TEST_F(NanoFile, WhatIsNoneOfOursIsNamed) {
   nanovdb::io::writeGrid(path_.string(), handle);
   EXPECT_THAT(refusal(), HasSubstr("NanoVDB file"));
   EXPECT_THROW(offset::read_vdb("/dev/null/x.nvdb"), Error);
+  std::filesystem::remove(path_);
+  ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);  // nobody waits for what comes
+  EXPECT_THAT(refusal(), HasSubstr("cannot be read"));
 }
 
 }  // namespace
