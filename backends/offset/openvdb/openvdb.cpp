@@ -11,6 +11,7 @@
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
+#include <openvdb/tools/Count.h>
 #include <openvdb/tools/MeshToVolume.h>
 
 #include "treadmark/backends/offset/vdb_messages.hpp"
@@ -40,7 +41,8 @@ template <class Grid>
 void put_content(Channel& c, const Grid& grid) {
   const auto& tree = grid.tree();
   c.put(static_cast<float>(tree.background()));
-  c.put<std::int64_t>(tree.activeTileCount() > 0 ? 1 : 0);
+  // threads would take of the bounded memory
+  c.put<std::int64_t>(openvdb::tools::countActiveTiles(tree, /*threaded=*/false) > 0 ? 1 : 0);
   std::int64_t count = 0;
   for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) count += leaf->isEmpty() ? 0 : 1;
   c.put(count);
