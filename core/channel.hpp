@@ -76,6 +76,8 @@ class Channel {
 
 /// Where start_helper puts the program's end of the socket.
 inline constexpr int kHelperSocket = 3;
+/// The exit status of a program of another version.
+inline constexpr int kOtherVersion = 2;
 
 /// One end of a socket.
 class SocketChannel : public Channel {

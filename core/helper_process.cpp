@@ -40,17 +40,21 @@ fs::path program_of(const Helper& helper) {
 class ProcessChannel final : public SocketChannel {
  public:
   ProcessChannel(const Helper& helper, const std::string& file)
-      : SocketChannel(-1), longest_silence_(helper.longest_silence) {
-    std::string path = program_of(helper).string(), release = version();
+      : SocketChannel(-1),
+        path_(program_of(helper).string()),
+        part_(helper.part),
+        longest_silence_(helper.longest_silence) {
+    std::string path = path_, release = version();
     int ends[2] = {-1, -1};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
       throw Error(ErrorKind::configuration, std::string("no socket can be opened for ") + helper.library, {file},
                   "are too many files open?");
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
+    // in this order, as who closed its own streams has the socket in their place
+    posix_spawn_file_actions_adddup2(&actions, ends[1], kHelperSocket);
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
       posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], kHelperSocket);
     char* arguments[] = {path.data(), release.data(), nullptr};
     const int failed = ::posix_spawn(&process_, path.c_str(), &actions, nullptr, arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
@@ -89,13 +93,23 @@ class ProcessChannel final : public SocketChannel {
       check_cancelled();
       const ssize_t n = call();
       if (n > 0) return static_cast<std::size_t>(n);
-      if (n == 0 || (errno != EINTR && errno != EAGAIN && errno != EWOULDBLOCK)) throw Broken{};
+      if (n == 0 || (errno != EINTR && errno != EAGAIN && errno != EWOULDBLOCK)) gone();
       pollfd wait{socket_, ready, 0};
       if (::poll(&wait, 1, kSlice) == 0) ++slices;
     }
     throw Broken{};
   }
 
+  [[noreturn]] void gone() const {
+    ::kill(process_, SIGKILL);
+    siginfo_t end{};
+    if (::waitid(P_PID, static_cast<id_t>(process_), &end, WEXITED | WNOWAIT) == 0 && end.si_code == CLD_EXITED &&
+        end.si_status == kOtherVersion)
+      throw Error(ErrorKind::configuration, path_ + " is of another version", {}, module_advice(part_));
+    throw Broken{};
+  }
+
+  std::string path_, part_;
   pid_t process_ = -1;
   int longest_silence_;  ///< [s]
 };

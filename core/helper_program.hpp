@@ -19,7 +19,7 @@ namespace treadmark {
 /// Ctrl-C is for the other end, and nothing goes on without it.
 template <class Serve>
 int serve_as_helper(int count, char** arguments, std::string_view version, Serve serve) {
-  if (count != 2 || arguments[1] != version) return 2;
+  if (count != 2 || arguments[1] != version) return kOtherVersion;
   std::signal(SIGINT, SIG_IGN);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   const rlimit none{0, 0};

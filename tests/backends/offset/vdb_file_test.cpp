@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <sys/resource.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -196,16 +197,22 @@ TEST_F(VdbFile, HostileSizesCostNoMemory) {
 TEST_F(VdbFile, WhatEndsTheProgramOfOpenVdbIsAnError) {
   offset::write_vdb(path_, wheel());
   const fs::path program = folder_.path() / "treadmark-openvdb";
-  for (const char* end : {"exit 0", "kill -SEGV $$", "kill -KILL $$"}) {
+  const auto refusal_by = [&](const char* end, ErrorKind kind) {
     std::ofstream(program) << "#!/bin/sh\n" << end << '\n';
     fs::permissions(program, fs::perms::owner_all);
     setenv("TREADMARK_MODULES", folder_.path().c_str(), 1);
-    EXPECT_THAT(refusal_of([&] { offset::read_vdb(path_); }, ErrorKind::input_data),
-                ::testing::HasSubstr("OpenVDB broke down over the VDB file"))
-        << end;
+    std::string said = refusal_of([&] { offset::read_vdb(path_); }, kind);
     unsetenv("TREADMARK_MODULES");
-  }
+    return said;
+  };
+  for (const char* end : {"exit 0", "kill -SEGV $$", "kill -KILL $$"})
+    EXPECT_THAT(refusal_by(end, ErrorKind::input_data), ::testing::HasSubstr("OpenVDB broke down over the VDB file"))
+        << end;
+  EXPECT_THAT(refusal_by("exit 2", ErrorKind::configuration),
+              ::testing::AllOf(::testing::HasSubstr("treadmark-openvdb is of another version"),
+                               ::testing::HasSubstr("install the Debian package treadmark-openvdb")));
   EXPECT_EQ(kind(), -1);
+  EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1) << "a program is left";
 }
 
 TEST_F(VdbFile, RefusesEntriesThatMakeNoSense) {
