@@ -23,7 +23,7 @@ std::span<const Part> parts();
 /// Whether this build has the part. Errors of this and the following: std::invalid_argument for a key that is none.
 bool has_part(std::string_view key);
 
-/// "this build leaves out the backend 'offset' (OpenVDB)", where what is "the backend 'offset'".
+/// "this build leaves out the backend 'level-set' (OpenVDB)", where what is "the backend 'level-set'".
 std::string left_out_message(std::string_view key, std::string_view what);
 /// How it is put in: option and packages.
 std::string left_out_advice(std::string_view key);

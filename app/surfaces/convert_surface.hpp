@@ -41,9 +41,8 @@ struct Converted {
 
 /// Reads any geometry (profile, slices, triangles, offsets, or the wheel or rail of the first case of a case file) and
 /// writes it as triangles (.ply .stl .obj .off), slices (.slcs .slcw), offsets over the undamaged section (.vdb .nvdb),
-/// CAD
-/// (.step) or splines (.xml).
-/// Offsets become offsets of another file voxel by voxel unless a resolution or a part of them is asked for.
+/// CAD (.step) or splines (.xml). Offsets become offsets of another file voxel by voxel unless a resolution or a part
+/// of them is asked for.
 /// The file appears only where it was read again and lies near enough to the input. Errors: those of readers, backends,
 /// writers and require_as_written; Error(configuration) if the body is not known or the extension means nothing.
 Converted convert_surface(const std::filesystem::path& input, const std::filesystem::path& output,

@@ -28,11 +28,11 @@ TEST(Parts, AreNamedOnceAndHaveAnOption) {
 
 TEST(Parts, WhatIsLeftOutNamesOptionAndPackage) {
   try {
-    left_out("openvdb", "the backend 'offset'");
+    left_out("openvdb", "the backend 'level-set'");
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::configuration);
     EXPECT_STREQ(error.what(),
-                 "this build leaves out the backend 'offset' (OpenVDB) (configure with -DTREADMARK_WITH_OPENVDB=ON, "
+                 "this build leaves out the backend 'level-set' (OpenVDB) (configure with -DTREADMARK_WITH_OPENVDB=ON, "
                  "Debian package libopenvdb-dev and libboost-iostreams-dev)");
   }
   EXPECT_EQ(left_out_advice("vehicle"), "configure with -DTREADMARK_VEHICLE=ON");
