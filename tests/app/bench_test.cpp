@@ -172,7 +172,6 @@ TEST(Bench, WhatCannotBeBuiltIsARow) {
 }
 
 TEST(Bench, StopsBetweenMeasures) {
-  TREADMARK_NEEDS("openvdb");
   std::atomic<bool> stop{false};
   Progress progress;
   progress.stop = &stop;

@@ -119,7 +119,6 @@ TEST(CompareCases, RowsAreThoseOfARunWithTheSameBackend) {
 }
 
 TEST(CompareCases, BodiesAndCombinationsAsAskedFor) {
-  TREADMARK_NEEDS("openvdb");
   const treadmark::testing::SampleInput input;
   input.write("flat.toml", treadmark::testing::flat_wheel_case());
   const std::vector<std::string> one_case{"wheelset.pitch_deg=0"};
@@ -144,7 +143,6 @@ TEST(CompareCases, BodiesAndCombinationsAsAskedFor) {
 }
 
 TEST(CompareCases, MeasuredPointsAreTheTruthWhereThereIsNoFormula) {
-  TREADMARK_NEEDS("openvdb");
   const treadmark::testing::SampleInput input;
   io::CaseFile file = io::read_any_case(input.inp(), {});
   // the same search for all: the locus, which round wheels get else, finds the lowest point 1e-8 m from the grid's, and
@@ -169,7 +167,6 @@ TEST(CompareCases, MeasuredPointsAreTheTruthWhereThereIsNoFormula) {
 }
 
 TEST(CompareCases, ThreadsChangeNothingButTimes) {
-  TREADMARK_NEEDS("openvdb");
   TREADMARK_NEEDS("tbb");
   const treadmark::testing::SampleInput input;
   input.write("flat.toml", treadmark::testing::flat_wheel_case());

@@ -11,7 +11,6 @@
 #include "treadmark/app/compare/compare_cases.hpp"
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
-#include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -49,7 +48,6 @@ std::vector<io::PatchResult> from_left(const io::CaseResult& result) {
 }
 
 TEST(CrossingPassage, BackendsAgreeWhileTheLoadMovesToTheNose) {
-  TREADMARK_NEEDS("openvdb");
   CompareSettings settings;
   settings.rail_backends = {"mesh", "offset"};
   settings.resolutions = {1e-3};

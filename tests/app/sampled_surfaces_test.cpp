@@ -15,7 +15,6 @@
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
-#include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -202,7 +201,6 @@ TEST(SampledSurfaces, ARollerIsARing) {
 }
 
 TEST(SampledSurfaces, APartlySampledWheelIsCompletedAsGiven) {
-  TREADMARK_NEEDS("openvdb");
   const std::string far_flat = "[[wheel.flats]]\nshape = \"fresh\"\nlength_mm = 60.0\ntheta_center_deg = 120.0\n";
   for (const std::string backend : {"offset", "spline", "mesh"}) {
     SCOPED_TRACE(backend);

@@ -18,7 +18,6 @@
 #include "treadmark/io/profiles/write_slices.hpp"
 #include "treadmark/model/shape/surface_errors.hpp"
 #include "treadmark/tests/support/error_text.hpp"
-#include "treadmark/tests/support/parts.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
@@ -142,7 +141,6 @@ TEST_P(ReferenceProfiles, LieInTheWideCorridorWithAndWithoutRoll) {
 
 TEST_P(ReferenceProfiles, DoSoThroughOtherSurfaces) {
   TREADMARK_REQUIRE_SHARED();
-  TREADMARK_NEEDS("openvdb");
   for (const char* backend : {"mesh", "offset"}) {
     GeometryRequest request = reference_pair(*shared, GetParam());
     request.backend = backend;

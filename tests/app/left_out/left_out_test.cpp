@@ -71,7 +71,8 @@ TEST(LeftOut, BackendsAreRefusedByName) {
   const SampleInput input;
   const bool there = has_part("openvdb");
   const ProgramResult list = run_program({"list", "backends"}),
-                      r = run_program({"run", input.inp().string(), "--rail-backend", "level-set", "--resolution", "2"});
+                      r = run_program(
+                          {"run", input.inp().string(), "--rail-backend", "level-set", "--resolution", "2"});
   EXPECT_THAT(list.out, HasSubstr("\nmesh-flat\n"));  // whether there is Embree or not
   EXPECT_THAT(list.out,
               HasSubstr(there ? "\nlevel-set\n" : "level-set - left out of this build: " + left_out_advice("openvdb")));

@@ -119,6 +119,7 @@ class FlippedBits : public ::testing::Test {
 
 TEST_F(FlippedBits, OfFilesAreRefused) {
   TREADMARK_NEEDS("openvdb");
+  TREADMARK_NEEDS("nanovdb");
   input_.write("case.toml", standard_case("1.0"));
   input_.edit("study.toml", "values = [0.5, 0.9]", "values = [0.5]");
   input_.write("evolve.toml",
@@ -132,7 +133,7 @@ TEST_F(FlippedBits, OfFilesAreRefused) {
   run({"sweep", path("study.toml"), "-o", path("sweep")});
   run({"evolve", path("evolve.toml"), "-o", path("evolve")});
   run({"measure", "wheel", "S1002", "1:40", "--hdf5", path("list.h5")});
-  for (const char* name : {"rail.vdb", "rail.ply", "rail.stl", "rail.slcs"})
+  for (const char* name : {"rail.vdb", "rail.nvdb", "rail.ply", "rail.stl", "rail.slcs"})
     run({"convert", path("rail.prr"), path(name), "--resolution", "8", "--range-mm=-24,24"});
   stop_at_a_checkpoint();
 
@@ -142,6 +143,7 @@ TEST_F(FlippedBits, OfFilesAreRefused) {
   const std::map<std::string, std::function<void(const fs::path&)>> read{
       {".h5", [](const fs::path& file) { const io::Hdf5Reader opened(file); }},
       {".vdb", [](const fs::path& file) { offset::read_vdb(file); }},
+      {".nvdb", [](const fs::path& file) { offset::read_vdb(file); }},
       {".ply", mesh},
       {".stl", mesh},
   };
@@ -160,7 +162,7 @@ TEST_F(FlippedBits, OfFilesAreRefused) {
         [&] { return answer_of([&] { reader(file); }); });
   }
   EXPECT_THAT(seen, ::testing::IsSupersetOf({"fields.h5", "simulation.h5", "sweep.h5", "unfinished.h5", "list.h5",
-                                             "rail.vdb", "rail.ply", "rail.stl"}));
+                                             "rail.vdb", "rail.nvdb", "rail.ply", "rail.stl"}));
 
   const fs::path index = path("rail.slcs");
   fs::path slice;
