@@ -87,6 +87,8 @@ const std::vector<OutputRow> kRows{
     {"convert_obj", "", "", "convert $rail.prr @rail.obj " RAIL, "convert $rail.prr @rail.obj " OTHER_RAIL, 3},
     {"convert_off", "", "", "convert $rail.prr @rail.off " RAIL, "convert $rail.prr @rail.off " OTHER_RAIL, 3},
     {"convert_vdb", "openvdb", "", "convert $rail.prr @rail.vdb " RAIL, "convert $rail.prr @rail.vdb " OTHER_RAIL, 1},
+    {"convert_nvdb", "nanovdb", "", "convert $rail.prr @rail.nvdb " RAIL, "convert $rail.prr @rail.nvdb " OTHER_RAIL,
+     1},
     {"convert_prr", "", "", "convert $rail.prr @rail.prr", "convert $rail.prr @rail.prr --smooth 100", 3},
     {"convert_prw", "", "", "convert $wheel.txt @wheel.prw --body wheel",
      "convert $wheel.txt @wheel.prw --body wheel --smooth 100", 3},
