@@ -20,13 +20,13 @@ constexpr double kLeastWear = 3e-4, kLeastLoad = 0.1;
 constexpr double kGoOver = 0.05, kRecheck = 10.0;  // [m]
 constexpr double kCalm = 0.7, kCalmLength = 0.5;   // of the tolerance, [m]
 
-TableError larger(const TableError& a, const TableError& b) {
+TableDeviation larger(const TableDeviation& a, const TableDeviation& b) {
   return {std::max(a.force, b.force), std::max(a.wear, b.wear)};
 }
 
 }  // namespace
 
-TableError table_error(const ContactReaction& table, const ContactReaction& full, double speed, double least) {
+TableDeviation table_error(const ContactReaction& table, const ContactReaction& full, double speed, double least) {
   const double scale = std::max(full.normal_force, least),
                equal = table.normal_force > 0.0 ? full.normal_force / table.normal_force : 0.0;
   const double force = (equal * table.on_rail.force - full.on_rail.force).norm(),
@@ -56,7 +56,7 @@ double ChosenContact::share(double x) const {
   return full_now_ ? gone_over : 1.0 - gone_over;
 }
 
-double ChosenContact::excess(const TableError& error) const {
+double ChosenContact::excess(const TableDeviation& error) const {
   return std::max(error.force / settings_.tolerance.force, error.wear / settings_.tolerance.wear);
 }
 
@@ -88,7 +88,7 @@ ContactReaction ChosenContact::evaluate(const PairMotion& motion) {
     ContactReaction full = full_->evaluate(motion);
     if (is_unsolved(full)) return full;
     tried_.error = no_table
-                       ? TableError{kNaN, kNaN}
+                       ? TableDeviation{kNaN, kNaN}
                        : table_error(tried_.table, full, motion.wheelset_velocity.x, kLeastLoad * settings_.usual_load);
     tried_.compared = true;
     if (tried_.share < 1.0) {
@@ -139,7 +139,7 @@ void ChosenContact::learn() {
     known->second = larger(known->second, tried_.error);
     error_ = tried_.error;
   } else {
-    error_ = known != worst_.end() ? known->second : TableError{kNaN, kNaN};
+    error_ = known != worst_.end() ? known->second : TableDeviation{kNaN, kNaN};
   }
 }
 

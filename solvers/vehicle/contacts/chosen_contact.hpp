@@ -14,7 +14,7 @@
 namespace treadmark::vehicle {
 
 /// What the contact of a table is wrong by in one motion, against the contact in full.
-struct TableError {
+struct TableDeviation {
   /// Of the force on the rail at equal normal force, or half of that of the normal force at equal height where that is
   /// more, over the normal force.
   double force = 0.0;
@@ -23,10 +23,10 @@ struct TableError {
   double wear = 0.0;
 };
 /// speed [m/s]; least: normal force that counts at least [N].
-TableError table_error(const ContactReaction& table, const ContactReaction& full, double speed, double least);
+TableDeviation table_error(const ContactReaction& table, const ContactReaction& full, double speed, double least);
 
 struct ChoiceSettings {
-  TableError tolerance{0.03, 0.1};                     ///< of the table
+  TableDeviation tolerance{0.03, 0.1};                 ///< of the table
   double usual_load = 0.0;                             ///< of the wheel [N]; > 0
   double full_travel = 1e-3;                           ///< of a step with the full contact [m]
   std::vector<std::pair<double, double>> always_full;  ///< places along the rail, increasing [m]
@@ -59,12 +59,12 @@ class ChosenContact : public ContactElement {
   struct Tried {
     PairMotion motion;
     ContactReaction table;
-    double share = 0.0;  ///< of the full contact
-    TableError error;    ///< where that was solved
+    double share = 0.0;    ///< of the full contact
+    TableDeviation error;  ///< where that was solved
     bool compared = false;
   };
   double share(double x) const;
-  double excess(const TableError& error) const;
+  double excess(const TableDeviation& error) const;
   bool must_be_full(double x) const;
   Sort sort_of(const Tried& tried) const;
   /// Error of the motion accepted last, as known; notes what is new.
@@ -79,8 +79,8 @@ class ChosenContact : public ContactElement {
   bool begun_ = false, full_now_ = false;
   bool was_full_ = false;  ///< the instant accepted last used the full contact
   double at_ = 0.0, since_ = kNever, probed_ = kNever, restless_ = kNever;  ///< distances travelled [m]
-  TableError error_;                                                        ///< of the instant accepted last
-  std::map<Sort, TableError> worst_;
+  TableDeviation error_;                                                    ///< of the instant accepted last
+  std::map<Sort, TableDeviation> worst_;
 };
 
 }  // namespace treadmark::vehicle

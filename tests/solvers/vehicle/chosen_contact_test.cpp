@@ -84,7 +84,7 @@ class ChosenContactTest : public ::testing::Test {
   ChoiceSettings settings;
 };
 
-TEST(TableError, CountsForcesAtEqualLoadAndHalfOfTheLoad) {
+TEST(TableDeviation, CountsForcesAtEqualLoadAndHalfOfTheLoad) {
   ContactReaction table, full;
   full.normal_force = 1e5;
   full.on_rail.force = {0.0, 1e4, 1e5};
