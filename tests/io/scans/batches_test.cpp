@@ -52,10 +52,20 @@ TEST(ScanBatches, AreSmall) {
   }
 }
 
-TEST(ScanBatches, OfPassesThatAreNoneDoNotCount) {
-  std::string text = "x y z scan\n";
+std::string with_a_wrong_pass(const char* column) {
+  std::string text = fmt::format("x y z {}\n", column);
   for (int i = 0; i < 70'000; ++i) text += fmt::format("{} 0 0 {}\n", i, i % 3);
-  text += "1 2 3 0.5\n";
+  return text + "1 2 3 0.5\n";
+}
+
+TEST(ScanBatches, TellAWrongPassWhereItStands) {
+  const std::string text = with_a_wrong_pass("scan");
+  expect_at(error_thrown_by([&] { in_batches(scans::parse_columns, text); }),
+            "the pass 0.5 is not a whole number from 0 to 65535", 70'002, 0);
+}
+
+TEST(ScanBatches, OfLinesThatAreNoPassesDoNotCount) {
+  const std::string text = with_a_wrong_pass("line");
   const Scan whole = parse(scans::parse_columns, text);
   EXPECT_TRUE(whole.cloud.passes.empty()) << whole.format;
   EXPECT_FALSE(in_batches(scans::parse_columns, text).scan.several_passes);
