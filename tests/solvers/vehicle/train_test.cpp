@@ -248,7 +248,7 @@ TEST(Coupler, BearsWhatItAcceleratesBehindIt) {
   LineSetup setup;
   setup.gravity = kGravity;
   setup.speed = constant_speed(kTrainSpeed);
-  setup.forces.push_back({"mass", {}, Freedom::x, {0.0, 2.0}, {0.0, kPull}, {}});
+  setup.forces.push_back({"mass", {}, {}, {}, Freedom::x, {0.0, 2.0}, {0.0, kPull}, {}});
   v.line = std::make_shared<const LineEffects>(v.system, std::move(setup));
   const Equilibrium e = find_equilibrium(v);
   ASSERT_EQ(e.report.status, Status::ok) << e.report.message;
@@ -272,7 +272,7 @@ TEST(FreeRun, TrainFollowsItsPointMass) {
   run_of.by_square = 2.0;
   run_of.place = {50.0, 60.0};
   run_of.gradient = {0.0, kSteep};
-  const std::vector<BodyForce> forces{{"mass", {}, Freedom::x, {0.0, 1.0}, {0.0, kPull}, {}}};
+  const std::vector<BodyForce> forces{{"mass", {}, {}, {}, Freedom::x, {0.0, 1.0}, {0.0, kPull}, {}}};
   VehicleOnTrack v = on_hertz_springs(model, {}, kTrainSpeed, kRailSpring);
   LineSetup setup;
   setup.gravity = kGravity;
