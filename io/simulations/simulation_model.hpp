@@ -92,8 +92,8 @@ struct NamedFile {
 
 /// Equal vehicles that follow in a train.
 struct TrainPart {
-  NamedFile file;  ///< of one of them; empty: as the leading vehicle
-  int count = 1;
+  NamedFile file;                    ///< of one of them; empty: as the leading vehicle
+  int count = 1;                     ///< of such vehicles
   double behind = 0.0;               ///< place of x = 0 behind that of the vehicle before [m]
   std::vector<std::string> between;  ///< coupled bodies: of the vehicle before, and of this one
   CouplerSpec coupler;               ///< position: in the vehicle before

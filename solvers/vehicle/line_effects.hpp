@@ -43,8 +43,8 @@ struct LineState {
   Vector element_stretch, element_rate;  ///< of the columns of Multibody::elements by the line [m], [m/s]
   /// What the force of a coupler does beside its column, as the vehicles stand across it in a curve.
   struct Aside {
-    int column = 0;
-    std::vector<std::pair<int, double>> direction;
+    int column = 0;                                 ///< the coupler, of Multibody::elements
+    std::vector<std::pair<int, double>> direction;  ///< coordinates and their parts of the generalised force
   };
   std::vector<Aside> couplers_aside;
   /// Adds so many times the generalised force of these; element_force: of all columns.
