@@ -45,7 +45,7 @@ treadmark_part(cad TREADMARK_WITH_OPENCASCADE "OpenCASCADE" "libocct-data-exchan
 treadmark_part(hdf5 TREADMARK_WITH_HDF5 "HDF5" "libhdf5-dev" "Files of fields and histories (.h5), with HDF5")
 treadmark_part(tbb TREADMARK_WITH_TBB "oneTBB" "libtbb-dev" "Threads for loops within loops too, with oneTBB")
 treadmark_part(fftw TREADMARK_WITH_FFTW "FFTW 3" "libfftw3-dev" "Fourier transforms by FFTW 3 (GPL) instead of our own" GPL)
-treadmark_part(vehicle TREADMARK_VEHICLE "vehicles" "" "Vehicles on their track in time (simulate, sweep, stability, response, track)")
+treadmark_part(vehicle TREADMARK_VEHICLE "vehicles" "" "Vehicles on their track in time (simulate, assess, sweep, evolve, stability, response, track, table)")
 treadmark_part(scans TREADMARK_SCANS "scans" "libnanoflann-dev" "Import of raw scans, virtual scans (import, scan), with nanoflann")
 treadmark_part(cgal TREADMARK_WITH_CGAL "CGAL" "libcgal-dev" "Triangles of scans with holes or fewer nodes, and free meshes, with CGAL (GPL)"
   NEEDS scans GPL)

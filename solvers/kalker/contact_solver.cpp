@@ -127,13 +127,6 @@ void ContactSolver::restore(const std::shared_ptr<const State>& state) {
   w.tangential.start_from(state->tangential);
 }
 
-void ContactSolver::start_like(const ContactSolver& other) {
-  reset();
-  NormalStart start = other.workspace_->normal.start();
-  start.any_size = true;
-  workspace_->normal.start_from(std::move(start));
-}
-
 const ContactHistory& ContactSolver::history() const { return workspace_->last; }
 
 void ContactSolver::continue_from(ContactHistory instant) { workspace_->last = std::move(instant); }

@@ -54,10 +54,6 @@ class ContactSolver {
   /// Goes on from a state of save(), to the same bits.
   void restore(const std::shared_ptr<const State>& state);
 
-  /// The next normal problem starts from the last pressures of another solver, on elements of whatever size; there is
-  /// no history.
-  void start_like(const ContactSolver& other);
-
   /// The last instant.
   const ContactHistory& history() const;
   /// Goes on from an instant that was computed elsewhere.

@@ -106,8 +106,6 @@ kalker::ContactSolver& PairStep::solver(std::size_t i, const Patch& patch) {
   if (!std::exchange(warm[i], 1)) {
     if (!few && patch.before.size() == 1 && patch.before.front()->solver)
       solvers[i].restore(patch.before.front()->solver);
-    else if (!few && i < few_warm_.size())
-      solvers[i].start_like(few_solvers_[i]);
     else
       solvers[i].reset();
   }

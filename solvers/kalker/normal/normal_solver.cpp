@@ -139,13 +139,10 @@ struct NormalSolver::Workspace {
   std::vector<double> gap;  ///< without NaN
   Grid2 last_grid;
   std::vector<double> last_pressure;  ///< on last_grid; empty = none
-  bool any_size = false;              ///< they are for elements of another size, too
 
-  /// Pressures of the last problem on another grid, to the nearest element; false if there are none for elements of
-  /// this size.
+  /// Pressures of the last problem on another grid, to the nearest element; false if there are none or elements are of
+  /// another size.
   bool take_last(const Grid2& grid, std::vector<double>& pressure) const;
-  /// The same between elements of another size.
-  bool take_between(const Grid2& grid, std::vector<double>& pressure) const;
   void solve_full(const ContactProblem& problem, const CombinedMaterial& material, ContactSolution& solution);
   void solve_full_or_recall(const ContactProblem& problem, ContactSolution& solution);
   void first_pressure(const ContactProblem& problem, const CombinedMaterial& material,
@@ -154,36 +151,8 @@ struct NormalSolver::Workspace {
                             std::optional<double> sum, std::vector<double>& q);
 };
 
-bool NormalSolver::Workspace::take_between(const Grid2& grid, std::vector<double>& pressure) const {
-  const Grid2& from = last_grid;
-  // At its edge a contact's pressure falls as a root: its square is what lines follow.
-  const auto squared = [&](int ix, int iy) {
-    if (ix < 0 || iy < 0 || ix >= from.nx || iy >= from.ny) return 0.0;
-    const double p = last_pressure[from.index(ix, iy)];
-    return p * p;
-  };
-  bool any = false;
-  for (int iy = 0; iy < grid.ny; ++iy) {
-    const double y = std::clamp((grid.y(iy) - from.y0) / from.dy, -1.0, static_cast<double>(from.ny));
-    const double low = std::floor(y), upper = y - low;
-    for (int ix = 0; ix < grid.nx; ++ix) {
-      const std::size_t i = grid.index(ix, iy);
-      if (gap[i] >= kNeverInContact) continue;
-      const double x = std::clamp((grid.x(ix) - from.x0) / from.dx, -1.0, static_cast<double>(from.nx));
-      const double left = std::floor(x), right = x - left;
-      const int jx = to_whole<int>(left), jy = to_whole<int>(low);
-      const double below = (1.0 - right) * squared(jx, jy) + right * squared(jx + 1, jy);
-      const double above = (1.0 - right) * squared(jx, jy + 1) + right * squared(jx + 1, jy + 1);
-      pressure[i] = std::sqrt((1.0 - upper) * below + upper * above);
-      any = any || pressure[i] > 0.0;
-    }
-  }
-  return any;
-}
-
 bool NormalSolver::Workspace::take_last(const Grid2& grid, std::vector<double>& pressure) const {
-  if (last_pressure.empty()) return false;
-  if (grid.dx != last_grid.dx || grid.dy != last_grid.dy) return any_size && take_between(grid, pressure);
+  if (last_pressure.empty() || grid.dx != last_grid.dx || grid.dy != last_grid.dy) return false;
   const double shift_x = (grid.x0 - last_grid.x0) / grid.dx, shift_y = (grid.y0 - last_grid.y0) / grid.dy;
   if (std::abs(shift_x) > 1e6 || std::abs(shift_y) > 1e6) return false;
   const int sx = to_whole<int>(std::round(shift_x)), sy = to_whole<int>(std::round(shift_y));
@@ -335,11 +304,10 @@ void NormalSolver::Workspace::solve_full_or_recall(const ContactProblem& problem
     solution = last_cold.solution;
     last_grid = problem.grid;
     last_pressure = solution.pressure;
-  } else {
-    solve_full(problem, combine(problem.material), solution);
-    if (cold) last_cold.keep(problem, solution);
+    return;
   }
-  any_size = false;
+  solve_full(problem, combine(problem.material), solution);
+  if (cold) last_cold.keep(problem, solution);
 }
 
 NormalSolver::NormalSolver() : workspace_(std::make_unique<Workspace>()) {}
@@ -353,7 +321,6 @@ NormalStart NormalSolver::start() const { return {workspace_->last_grid, workspa
 
 void NormalSolver::start_from(NormalStart start) {
   workspace_->last_grid = start.grid;
-  workspace_->any_size = start.any_size;
   workspace_->last_pressure = std::move(start.pressure);
 }
 

@@ -15,7 +15,6 @@ namespace treadmark::kalker {
 struct NormalStart {
   Grid2 grid;
   std::vector<double> pressure;
-  bool any_size = false;  ///< for elements of another size, too
 };
 
 /// Frictionless normal contact of one patch: pressures p >= 0 with p e = 0 for the deformed distance

@@ -250,31 +250,6 @@ TEST(NormalSolver, WarmStartGivesTheSameResult) {
   EXPECT_EQ(again.pressure, cold.pressure) << "after reset nothing of the history is left";
 }
 
-TEST(NormalSolver, PressuresOfFewElementsAreAStart) {
-  const HertzShape shape = hertz_from_semi_axes(6e-3, 4e-3, {true, 1e5}, kSteel);
-  const OwnedProblem few = hertzian(shape, hertz_grid(shape, 15, 13, 1.3)),
-                     many = hertzian(shape, hertz_grid(shape, 45, 45, 1.3));
-  NormalSolver rough, solver;
-  ContactSolution solution, warm;
-  rough.solve(few.problem, solution);
-  NormalStart start = rough.start();
-  const auto solved_from = [&](bool any_size) {
-    start.any_size = any_size;
-    solver.start_from(start);
-    solver.solve(many.problem, warm);
-  };
-  const ContactSolution cold = solve(many.problem);
-  solved_from(false);
-  EXPECT_EQ(warm.pressure, cold.pressure) << "elements of another size start nothing that was not to start from them";
-  solved_from(true);
-  EXPECT_LT(rms_difference(warm.pressure, cold.pressure), 2e-5 * rms(cold.pressure));
-  EXPECT_LT(warm.normal.iterations, cold.normal.iterations);
-  rough.start_from({few.problem.grid, {}, true});
-  rough.solve(few.problem, solution);
-  rough.solve(many.problem, warm);
-  EXPECT_EQ(warm.pressure, cold.pressure) << "only the next problem starts between elements, also one that is recalled";
-}
-
 TEST(NormalSolver, RecallsTheLastProblemFromRestAndNoOther) {
   const HertzShape shape = hertz_from_semi_axes(6e-3, 4e-3, {true, 1e5}, kSteel);
   const OwnedProblem first = hertzian(shape, hertz_grid(shape, 40, 40, 1.2));
