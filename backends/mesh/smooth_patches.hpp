@@ -44,7 +44,6 @@ class SmoothPatches {
   double bulge(std::uint32_t triangle) const { return static_cast<double>(bulge_[triangle]); }
   Vec3 mean_of_normals(std::uint32_t triangle) const;
   double largest_reach() const { return kSteepest * static_cast<double>(largest_bulge_); }
-  double largest_bulge() const { return static_cast<double>(largest_bulge_); }
 
   std::size_t memory_bytes() const {
     return fits_.memory_bytes() + bulge_.capacity() * sizeof(float) + needle_.capacity() / 8;

@@ -27,7 +27,6 @@ FileKind file_kind(const std::filesystem::path& file);
 FileKind kind_of(const CaseTable& top);
 
 inline bool is_study_file(const std::filesystem::path& file) { return file_kind(file) == FileKind::study; }
-inline bool is_evolution_file(const std::filesystem::path& file) { return file_kind(file) == FileKind::evolution; }
 inline bool is_simulation_file(const std::filesystem::path& file) { return file_kind(file) == FileKind::simulation; }
 
 }  // namespace treadmark::io
