@@ -140,7 +140,7 @@ constexpr Access<WholeOf<Outer>> within() {
     return {[](const R& r) { return (*(r.*Outer)).*Inner; },
             [](R& r, double v) {
               auto& outer = r.*Outer;
-              if (!outer) outer.emplace();
+              if (!outer) outer = WholeOf<Inner>{};
               (*outer).*Inner = v;
             },
             [](const R& r) { return (r.*Outer).has_value(); }};
