@@ -15,11 +15,11 @@ struct RailHead {
   double z_top = 0.0;  ///< [m]
 };
 
-/// Of what lies less than `depth` below the top in one piece the widest: the head without a keeper beside its groove,
-/// which may be the higher one, by its place or by the rail's inclination. innermost: the piece of least y instead, and
-/// the top of all. y, z: of points along the section, z down [m]; those without z (NaN) are holes, which end nothing.
-/// height: of the top near a point, where it is known better than by the points. Nothing where no point has a height.
-/// Thread-safe.
+/// Of what lies less than `depth` below its own top in one piece the widest: the head without a keeper or check rail
+/// beside its groove, which may be up to 30 mm higher, by its place or by the rail's inclination. innermost: the piece
+/// of least y less than `depth` below the top of all instead, and that top. y, z: of points along the section, z down
+/// [m]; those without z (NaN) are holes, which end nothing. height: of the top near a point, where it is known better
+/// than by the points. Nothing where no point has a height. Thread-safe.
 std::optional<RailHead> head_of_rail(std::span<const double> y, std::span<const double> z, double depth,
                                      bool innermost = false, const std::function<double(std::size_t)>& height = {});
 

@@ -238,6 +238,15 @@ NominalOutline nominal_outline(std::string name, Body body, std::span<const Vec2
       if (std::isnan(kept) || sign * z > sign * kept) kept = z;
     }
   }
+  if (body == Body::wheel) return out;
+  constexpr std::size_t kDepths = 41;
+  out.half.assign(kDepths, kNaN);
+  for (std::size_t i = 1; i < outline.size(); ++i)
+    for (std::size_t k = 0; k < kDepths; ++k) {
+      const Vec2 &a = outline[i - 1], &b = outline[i];
+      const double t = (kHalfStep * static_cast<double>(k) - a.y()) / (b.y() - a.y());
+      if (t >= 0.0 && t <= 1.0) out.half[k] = std::fmax(out.half[k], std::fabs(a.x() + t * (b.x() - a.x())));
+    }
   return out;
 }
 
@@ -250,6 +259,33 @@ std::optional<Lean> lean_of(const Profile& profile, std::span<const NominalOutli
         head && (!out || head->residual < out->residual))
       return head;
   return out;
+}
+
+std::array<TreadFit, 4> tread_fits(const Profile& profile, std::span<const NominalOutline> nominals) {
+  constexpr double kSteepest = 0.03, kInRange = 0.9;
+  const std::vector<Vec2> points = apart(profile);
+  std::array<TreadFit, 4> fits{{{{}, kInfinity, false, false},
+                                {{}, kInfinity, true, false},
+                                {{}, kInfinity, false, true},
+                                {{}, kInfinity, true, true}}};
+  for (TreadFit& fit : fits)
+    for (const NominalOutline& nominal : nominals) {
+      const auto beside = placed(nominal, {});
+      std::vector<Vec2> off;  // over y
+      for (const Vec2& p : points)
+        if (const auto at = beside(Vec2(fit.mirror_y ? -p.x() : p.x(), fit.mirror_z ? -p.y() : p.y())))
+          off.emplace_back(at->y, at->off);
+      const auto count = static_cast<double>(off.size());
+      if (off.size() < 3 || count < kInRange * static_cast<double>(points.size())) continue;
+      Vec2 mean = Vec2::Zero();
+      for (const Vec2& o : off) mean += o / count;
+      double yy = 0.0, yr = 0.0, squares = 0.0;
+      for (const Vec2& o : off) yy += std::pow(o.x() - mean.x(), 2), yr += (o.x() - mean.x()) * (o.y() - mean.y());
+      const double slope = yy > 0.0 ? std::clamp(yr / yy, -kSteepest, kSteepest) : 0.0;
+      for (const Vec2& o : off) squares += std::pow(o.y() - mean.y() - slope * (o.x() - mean.x()), 2);
+      if (const double rms = std::sqrt(squares / count); rms < fit.rms) fit.name = nominal.name, fit.rms = rms;
+    }
+  return fits;
 }
 
 }  // namespace treadmark::measured

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,11 +13,15 @@
 
 namespace treadmark::measured {
 
+/// Of depths over which the sides of rails are looked up [m].
+inline constexpr double kHalfStep = 1e-3;
+
 /// A nominal section for looking up: the outer side of its outline, z down over y at equal steps [m]; NaN beside it.
 struct NominalOutline {
   std::string name;  ///< "S1002"
   double first = 0.0, step = 0.0;
   std::vector<double> z;
+  std::vector<double> half;  ///< of a rail: how far its head reaches aside at z = 0, kHalfStep, ... 40 mm [m]
 };
 /// outline: points (y, z) in their order [m].
 NominalOutline nominal_outline(std::string name, Body body, std::span<const Vec2> outline);
@@ -41,5 +46,14 @@ inline constexpr double kLevel = 7e-3;
 /// among what is left out. Of a rail with a groove that is like no nominal one the head alone. Nothing where fewer than
 /// 20 mm of the section can be compared. Thread-safe.
 std::optional<Lean> lean_of(const Profile& profile, std::span<const NominalOutline> nominals);
+
+/// How near a tread is to the nominal section that is most like it, as it lies but for its height and 30 mrad.
+struct TreadFit {
+  std::string name;  ///< of the nominal section
+  double rms = 0.0;  ///< [m]; infinite where none is there
+  bool mirror_y = false, mirror_z = false;
+};
+/// Of a tread as it is, with y mirrored, with z mirrored, and with both. Thread-safe.
+std::array<TreadFit, 4> tread_fits(const Profile& profile, std::span<const NominalOutline> nominals);
 
 }  // namespace treadmark::measured

@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kBeyondRest = 15e-3;  ///< what reaches so far beyond the tread is a flange [m]
 constexpr double kTapeToBack = 70e-3;  ///< from the back of the flange to the tape line [m]
+constexpr double kBelowTip = 5e-3;     ///< the back of a flange begins there [m]
 constexpr double kStep = 0.25e-3;      ///< of an envelope [m]
 
 /// The line along which most of an envelope lies, level or sloped as in a tilted frame: least median of squares
@@ -189,8 +190,13 @@ Readings wheel_z(const Envelope& down, const Envelope& up) {
           false};
 }
 
-/// How far both ends of an envelope lie beyond the rest, in the mean.
-double ends_of(const Envelope& e) {
+/// How far both ends of an envelope lie beyond the rest.
+struct Ends {
+  double first = 0.0, last = 0.0;
+  double mean() const { return 0.5 * (first + last); }
+};
+
+Ends ends_of(const Envelope& e) {
   constexpr std::size_t kEnd = 5;  // steps
   const double middle = quantile(e.height, 0.5);
   const auto mean = [&](std::size_t from) {
@@ -199,7 +205,7 @@ double ends_of(const Envelope& e) {
       if (!std::isnan(e.height[i])) sum += e.height[i], n += 1.0;
     return n > 0.0 ? sum / n - middle : 0.0;
   };
-  return 0.5 * (mean(0) + mean(e.height.size() - std::min(kEnd, e.height.size())));
+  return {mean(0), mean(e.height.size() - std::min(kEnd, e.height.size()))};
 }
 
 /// Curvature of a parabola through the points, over its standard deviation.
@@ -227,25 +233,28 @@ double bend_of(const Envelope& e) {
 }
 
 Readings rail_z(const Envelope& down, const Envelope& up) {
-  constexpr double kSides = 3e-3;
+  constexpr double kSides = 3e-3, kGrooved = 15e-3;
   // sides that fall away, seen from above and, were it turned over, from below
-  const double as_it_is = -ends_of(up), turned = -ends_of(down);
-  if (std::max(as_it_is, turned) > kSides)
+  const Ends above = ends_of(up), below = ends_of(down);
+  const double as_it_is = -above.mean(), turned = -below.mean();
+  const double top = quantile(up.height, 1.0), bottom = quantile(up.height, 0.0);
+  const Ends& better = turned > as_it_is ? below : above;
+  const bool one_rises = std::max(better.first, better.last) > kSides, grooved = top - bottom > kGrooved;
+  if (std::max(as_it_is, turned) > kSides && !(one_rises && grooved))
     return {kMilli * std::max(0.0, as_it_is), kMilli * std::max(0.0, turned),
             fmt::format("sides that fall {:.1f} mm below the head", kMilli * std::max(as_it_is, turned)), true};
-  // of a groove beside a head that was not measured to its side the rims are up
-  constexpr double kGrooved = 15e-3, kNearTop = 8e-3;
-  const double top = quantile(up.height, 1.0), bottom = quantile(up.height, 0.0);
-  if (top - bottom > kGrooved) {
+  // beside a groove, where one end is a keeper or check rail, of whatever height, or the head was not measured to its
+  // side: more of the section is up on the rims than down in the groove. Each less half of the other: two fifths more
+  // are sure.
+  if (grooved) {
     const auto width = [&](auto&& belongs) {
       return kStep * static_cast<double>(ranges::count_if(up.height, belongs));
     };
-    const double near_top = width([&](double h) { return h > top - kNearTop; }),
-                 near_bottom = width([&](double h) { return h < bottom + kNearTop; });
-    return {
-        kMilli * near_top, kMilli * near_bottom,
-        fmt::format("{:.1f} mm near its top and {:.1f} mm near its bottom", kMilli * near_top, kMilli * near_bottom),
-        true};
+    const double middle = 0.5 * (top + bottom), high = width([&](double h) { return h > middle; }),
+                 low = width([&](double h) { return h < middle; });
+    return {kMilli * std::max(0.0, high - 0.5 * low), kMilli * std::max(0.0, low - 0.5 * high),
+            fmt::format("{:.1f} mm of it near its top and {:.1f} mm near its bottom", kMilli * high, kMilli * low),
+            true};
   }
   const double bend = bend_of(up);
   return {std::max(0.0, -bend), std::max(0.0, bend),
@@ -283,6 +292,11 @@ double slope_of(const std::vector<double>& t, const std::vector<double>& x) {
   return tt > 0.0 ? tx / tt : 0.0;
 }
 
+double extent_of(const std::vector<double>& values) {
+  const auto [low, high] = ranges::minmax(values);
+  return high - low;
+}
+
 /// Least squares parabola x = c0 + c1 u + c2 u^2 through five points or more, u = (t - middle) / half.
 struct Parabola {
   Eigen::Vector3d c;
@@ -315,10 +329,10 @@ double least_of_parabola(const std::vector<double>& t, const std::vector<double>
   return best;
 }
 
-/// The back of the flange: where the section behind its tip runs upright.
+/// The back of the flange: its straight part, or where little of that was measured the place where the section behind
+/// its tip runs upright and reaches farthest.
 void find_back(const SectionPoints& p, std::size_t tip, WheelMarks& marks) {
-  constexpr double kBelowTip = 5e-3, kLeastChord = 2e-3, kUpright = 10.0 * kPi / 180.0;
-  constexpr double kStraight = 6e-3, kFillet = 12e-3;
+  constexpr double kLeastChord = 2e-3, kUpright = 10.0 * kPi / 180.0;
   // the end of the section on the side of small y, whichever way it runs
   const bool back_first = p.y.front() < p.y.back();
   const auto at = [&](std::size_t k) { return back_first ? k : p.y.size() - 1 - k; };
@@ -327,6 +341,10 @@ void find_back(const SectionPoints& p, std::size_t tip, WheelMarks& marks) {
   for (std::size_t k = 0; k < count; ++k)
     if (p.z[tip] - p.z[at(k)] > kBelowTip && p.y[at(k)] < p.y[tip]) y.push_back(p.y[at(k)]), z.push_back(p.z[at(k)]);
   if (y.size() < 2) return;
+  if ((marks.straight = straight_back(y, z, p.z[tip]))) {
+    marks.back_y = marks.straight->y;
+    return;
+  }
   double apart = 0.0;
   for (std::size_t i = 1; i < y.size(); ++i)
     apart += std::hypot(y[i] - y[i - 1], z[i] - z[i - 1]) / static_cast<double>(y.size() - 1);
@@ -338,13 +356,6 @@ void find_back(const SectionPoints& p, std::size_t tip, WheelMarks& marks) {
     if (std::fabs(z[i] - z[farthest]) <= chord) near_y.push_back(y[i]), near_z.push_back(z[i]);
   if (near_y.size() < 2 || std::fabs(std::atan(slope_of(near_z, near_y))) > kUpright) return;
   marks.back_y = least_of_parabola(near_z, near_y, least);
-  // above the fillet towards the tip it is straight
-  std::vector<double> straight_y, straight_z;
-  for (std::size_t i = 0; i < y.size(); ++i)
-    if (p.z[tip] - z[i] > kBelowTip + kFillet) straight_y.push_back(y[i]), straight_z.push_back(z[i]);
-  if (straight_z.size() < 6) return;
-  const auto [low, high] = std::minmax_element(straight_z.begin(), straight_z.end());
-  if (*high - *low > kStraight) marks.back_lean = -std::atan(slope_of(straight_z, straight_y));
 }
 
 /// Of the line through the lowest points of both halves of a section.
@@ -416,6 +427,7 @@ class Reader {
     } else {
       find_marks(p_, down_, u_.wheel);
       if (w_.place || w_.z_is_radius) place_wheel();
+      note_burr();
       judge_place();
     }
     return std::move(u_);
@@ -460,6 +472,11 @@ class Reader {
       doubt("upside_down", fmt::format("which way z points is not sure: as in the file it shows {} (evidence {:.3g} "
                                        "against {:.3g}): set mirror_z = \"yes\" or \"no\"",
                                        u_.z.evidence, u_.z.as_it_is, u_.z.turned));
+    } else if (said == Turn::decide && w_.place && !u_.z.marked && p_.y.size() >= kFewest) {
+      u_.taken_as_it_is = true;
+      u_.notes.push_back(
+          "no flange is in the section, which alone would show which way y and z point: taken as in the file, y to the "
+          "field side and z down; set mirror_y or mirror_z where that is wrong");
     }
   }
 
@@ -520,6 +537,15 @@ class Reader {
     if (tape != 0.0) move(0.0, -tape);
   }
 
+  void note_burr() {
+    constexpr double kBurr = 0.3e-3;
+    if (const auto& back = u_.wheel.straight; back && back->beyond > kBurr)
+      u_.notes.push_back(fmt::format(
+          "something stands {:.2f} mm out of the back of the flange, as a burr does: the back is its straight part, "
+          "{:.0f} mm long",
+          kMilli * back->beyond, kMilli * back->length));
+  }
+
   void judge_place() {
     constexpr double kTipNew = -55e-3, kTipOff = 2e-3, kLowest = 20e-3, kHighest = 42e-3;
     const WheelMarks& m = u_.wheel;
@@ -554,27 +580,83 @@ bool Readings::sure() const {
   return std::max(as_it_is, turned) >= kTimes * std::min(as_it_is, turned);
 }
 
-std::vector<std::size_t> head_of_outline(const SectionPoints& p) {
+std::optional<FlangeBack> straight_back(std::span<const double> y, std::span<const double> z, double tip_z) {
+  constexpr double kFillet = 18.5e-3;  // below the tip of EN 13715 it ends
+  constexpr double kSeen = 40e-3, kLeast = 6e-3, kNear = 0.15e-3, kNearest = 0.02e-3, kDeviations = 3.0;
+  constexpr std::size_t kFewest = 6;
+  constexpr int kRounds = 8;
+  // seen from behind: how far out over the depth below the fillet
+  SectionPoints out{Body::wheel, {}, {}};
+  double beyond = 0.0;
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (const double depth = tip_z - z[i] - kFillet; depth >= 0.0 && depth <= kSeen)
+      out.y.push_back(depth), out.z.push_back(-y[i]);
+  if (out.y.size() < kFewest || extent_of(out.y) < kLeast) return std::nullopt;
+  // most of it lies along a line, whatever stands out of it or falls back
+  const Envelope e = envelope(out, 1.0);
+  const Rest rest = rest_of(e);
+  double slope = rest.slope / kStep, at_fillet = rest.height - slope * e.first, near = kNear;
+  std::vector<double> t, x;
+  for (int round = 0; round < kRounds; ++round) {
+    t.clear(), x.clear();
+    for (std::size_t i = 0; i < out.y.size(); ++i)
+      if (std::fabs(out.z[i] - at_fillet - slope * out.y[i]) < near) t.push_back(out.y[i]), x.push_back(out.z[i]);
+    if (t.size() < kFewest || 2 * t.size() < out.y.size() || extent_of(t) < kLeast) return std::nullopt;
+    slope = slope_of(t, x);
+    const auto n = static_cast<double>(t.size());
+    double sum = 0.0, squares = 0.0;
+    for (std::size_t i = 0; i < t.size(); ++i) sum += x[i] - slope * t[i];
+    at_fillet = sum / n;
+    for (std::size_t i = 0; i < t.size(); ++i) squares += std::pow(x[i] - slope * t[i] - at_fillet, 2);
+    near = std::clamp(kDeviations * std::sqrt(squares / n), kNearest, near);  // the foot of a burr is outside
+  }
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (const double depth = tip_z - z[i] - kFillet; depth > kBelowTip - kFillet && depth <= kSeen)
+      beyond = std::max(beyond, -y[i] - at_fillet - slope * depth);
+  const auto count = static_cast<double>(t.size());
+  double middle = 0.0, squares = 0.0;
+  for (const double depth : t) middle += depth / count;
+  for (const double depth : t) squares += (depth - middle) * (depth - middle);
+  return FlangeBack{-at_fillet, -std::atan(slope), extent_of(t), beyond,
+                    std::sqrt(1.0 / count + middle * middle / squares)};
+}
+
+RailOutline outline_of_rail(const SectionPoints& p) {
   constexpr double kLow = 90e-3, kHigh = 300e-3;  // of rails; a file in um that is read as mm is no rail
   constexpr double kEnd = 15e-3, kShoulder = 30e-3, kDeep = 10e-3, kInwards = 1e-3, kClosed = 5e-3;
+  constexpr double kLeastHead = 40e-3, kWidestHead = 100e-3, kWidestWeb = 45e-3, kWebFrom = 0.55, kWebTo = 0.75;
   const std::size_t n = p.y.size();
   if (p.body != Body::rail || n < 20) return {};
   const auto ends = std::minmax_element(p.z.begin(), p.z.end());
-  const double low = *ends.first, high = *ends.second;
-  if (high - low < kLow || high - low > kHigh) return {};
-  // the foot is wider than the head
-  const auto width = [&](double sign, double within) {
-    const double end = sign > 0.0 ? low : high;
+  const double low = *ends.first, high = *ends.second, height = high - low;
+  if (height < kLow || height > kHigh) return {};
+  // of what is so deep below the end that has the least z (sign 1) or the greatest
+  struct Span {
     double left = kInfinity, right = -kInfinity;
-    for (std::size_t i = 0; i < n; ++i)
-      if (sign * (p.z[i] - end) < within) left = std::min(left, p.y[i]), right = std::max(right, p.y[i]);
-    return std::pair{left, right};
+    double width() const { return right - left; }
+    double middle() const { return 0.5 * (left + right); }
   };
-  const auto [l1, r1] = width(1.0, kEnd);
-  const auto [l2, r2] = width(-1.0, kEnd);
-  const double sign = r1 - l1 <= r2 - l2 ? 1.0 : -1.0;
-  const auto [left, right] = width(sign, kShoulder);
-  const double middle = 0.5 * (left + right);
+  const auto span = [&](double sign, double from, double to) {
+    Span out;
+    for (std::size_t i = 0; i < n; ++i)
+      if (const double depth = sign > 0.0 ? p.z[i] - low : high - p.z[i]; depth >= from && depth < to)
+        out.left = std::min(out.left, p.y[i]), out.right = std::max(out.right, p.y[i]);
+    return out;
+  };
+  // the foot is wider than the head, and a web without a foot is narrower
+  const double first = span(1.0, 0.0, kEnd).width(), last = span(-1.0, 0.0, kEnd).width();
+  const bool has_foot = std::min(first, last) >= kLeastHead;
+  double sign = (first <= last) == has_foot ? 1.0 : -1.0;
+  const auto has_head = [&] {
+    const double head = span(sign, 0.0, kShoulder).width();
+    return head >= kLeastHead && head <= kWidestHead &&
+           span(sign, kWebFrom * height, kWebTo * height).width() <= kWidestWeb;
+  };
+  if (!has_head()) {  // of a foot that was measured in part
+    sign = -sign;
+    if (!has_head()) return {};  // the rim of a wheel is as wide below as above
+  }
+  const double middle = span(sign, 0.0, kShoulder).middle();
   const auto depth = [&](std::size_t i) { return sign * p.z[i] - (sign > 0.0 ? low : -high); };
   const bool closed = std::hypot(p.y.front() - p.y.back(), p.z.front() - p.z.back()) < kClosed;
   std::size_t top = 0;
@@ -596,9 +678,16 @@ std::vector<std::size_t> head_of_outline(const SectionPoints& p) {
     return best;
   };
   const std::size_t after = reach(1), before = reach(n - 1);
-  std::vector<std::size_t> kept;
-  for (std::size_t k = 0; k <= before + after && k < n; ++k) kept.push_back((top + n - before + k) % n);
-  return kept;
+  RailOutline out;
+  for (std::size_t k = 0; k <= before + after && k < n; ++k) out.head.push_back((top + n - before + k) % n);
+  std::size_t start = 0;
+  if (closed)
+    for (std::size_t i = 0; i < n; ++i)
+      if (height - depth(i) < kEnd &&
+          (height - depth(start) >= kEnd || std::fabs(p.y[i] - middle) < std::fabs(p.y[start] - middle)))
+        start = i;
+  for (std::size_t k = 0; k < n; ++k) out.whole.push_back((start + k) % n);
+  return out;
 }
 
 Understanding understand(SectionPoints& points, const Words& words) { return Reader(points, words).understand(); }

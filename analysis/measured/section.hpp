@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,16 +51,24 @@ struct Trend {
   double spread = 0.0;  ///< median deviation from it: that of a hollow tread is large
 };
 
+/// The straight part of the back of a flange, which a gauge rests on.
+struct FlangeBack {
+  double y = 0.0;       ///< of it, or of its continuation, where the fillet to the tip begins [m]
+  double lean = 0.0;    ///< against the upright, positive: rolled so that z grows with y [rad]
+  double length = 0.0;  ///< that was measured [m]
+  double beyond = 0.0;  ///< how far anything stands out of it [m]
+  double error = 0.0;   ///< standard deviation of y where the points scatter by one
+};
+
 /// The marks of a wheel's section, z down [m].
 struct WheelMarks {
   std::optional<double> tip_y, tip_z;  ///< of the flange, where there is one
   bool tip_seen = false;               ///< false: the section ends on the flange before it
   std::optional<double> face_y;        ///< of the flange 10 mm beyond the tread at y = 0
   std::optional<double> back_y;        ///< of the flange, where the section reaches it
-  std::optional<double> back_lean;     ///< of its straight part against the upright, positive: rolled so that z grows
-                                       ///< with y [rad]; nothing where less than 6 mm of it are measured
+  std::optional<FlangeBack> straight;  ///< part of the back; nothing where less than 6 mm of it are measured
   bool second_flange = false;          ///< one on the other side too
-  std::optional<double> tips_lean;     ///< of the line through the tips of two flanges, as back_lean [rad]
+  std::optional<double> tips_lean;     ///< of the line through the tips of two flanges, as the lean of a back [rad]
   std::optional<double> tape_z;        ///< of the tread at y = 0
   std::optional<Trend> tread;          ///< nothing where less than 30 mm of it are measured
 };
@@ -67,6 +77,7 @@ struct WheelMarks {
 struct Understanding {
   Readings y, z;  ///< which way the axes point
   bool mirrored_y = false, mirrored_z = false;
+  bool taken_as_it_is = false;          ///< nothing shows which way y and z of a wheel point, and nothing was said
   double shift_y = 0.0, shift_z = 0.0;  ///< that were added after mirroring [m]
   WheelMarks wheel;                     ///< of a wheel, after all that
   std::optional<Trend> head;            ///< of the top of a rail
@@ -80,8 +91,19 @@ struct Understanding {
 /// evidence; where two readings are about as likely there is a doubt that names both. Never throws; thread-safe.
 Understanding understand(SectionPoints& points, const Words& words);
 
-/// Of the whole outline of a rail (more than 90 mm high, closed or not) the indices of its head in the order of the
-/// outline, down to where its sides turn under it. Empty for any other section. Thread-safe.
-std::vector<std::size_t> head_of_outline(const SectionPoints& points);
+/// Of the points of a section behind the tip of its flange, in their order, z down [m]; tip_z: of the tip. Most of what
+/// is 18.5 to 58.5 mm below the tip must lie within 0.15 mm of a line less than 11 degrees off the upright, and 6 mm of
+/// it; nothing else counts. Thread-safe.
+std::optional<FlangeBack> straight_back(std::span<const double> y, std::span<const double> z, double tip_z);
+
+/// Indices of the points of the outline of a rail, in its order.
+struct RailOutline {
+  std::vector<std::size_t> head;   ///< down to where its sides turn under it
+  std::vector<std::size_t> whole;  ///< from one end to the other, of a closed one from the middle of its foot
+};
+
+/// Of the outline of a rail, with its web, with or without a foot (90 to 300 mm high, closed or not). Empty for any
+/// other section. Thread-safe.
+RailOutline outline_of_rail(const SectionPoints& points);
 
 }  // namespace treadmark::measured

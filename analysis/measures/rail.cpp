@@ -376,7 +376,22 @@ class RailRuler {
           out_.w1.value + 0.5 * out_.w2.value, std::hypot(out_.w1.uncertainty, 0.5 * out_.w2.uncertainty), {}};
     else
       out_.equivalent = not_railed(out_.w1.known() ? out_.w2.reason : out_.w1.reason);
+    out_.lost_gauge = lost_on(-1, head);
+    out_.lost_field = lost_on(+1, head);
     areas(head);
+  }
+
+  double lost_on(int way, const Head& head) const {
+    constexpr double kStep = 0.5e-3;
+    constexpr std::size_t kFewest = 10;
+    const auto count = to_whole<std::size_t>((head.low - g_.side_depth) / kStep);
+    const auto own = s_.y_over(g_.side_depth, kStep, count, way),
+               wanted = nominal_->y_over(g_.side_depth, kStep, count, way);
+    double sum = 0.0;
+    std::size_t known = 0;
+    for (std::size_t i = 0; i < count; ++i)
+      if (const double lost = way * (wanted[i] - own[i]); !std::isnan(lost)) sum += lost, ++known;
+    return known < kFewest ? kUnknown : sum / static_cast<double>(known);
   }
 
   /// Where the nominal section is inclined by 45 degrees on the gauge side.

@@ -42,9 +42,11 @@ struct RailMeasures {
   Measure head_width;
   Measure crown_radius;
   Measure inclination;  ///< of the section in its own axes, positive towards the gauge side [rad]
-  RailAlignment alignment = RailAlignment::none;  ///< that was used
-  double shift_y = 0.0, shift_z = 0.0;            ///< of the section onto the nominal one, after the turn [m]
-  double residual = kUnknown;                     ///< of the parts that were laid upon each other, rms [m]
+  double lost_gauge = kUnknown, lost_field = kUnknown;  ///< of both sides, mean from side_depth down to their nominal
+                                                        ///< lower end [m]; the field side does not wear
+  RailAlignment alignment = RailAlignment::none;        ///< that was used
+  double shift_y = 0.0, shift_z = 0.0;                  ///< of the section onto the nominal one, after the turn [m]
+  double residual = kUnknown;                           ///< of the parts that were laid upon each other, rms [m]
 };
 
 /// Measures a rail against a nominal section (its whole outline or its head, crown at the origin), which may be null:

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
+#include "treadmark/analysis/measured/section.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/to_whole.hpp"
 
@@ -82,20 +84,26 @@ class WheelRuler {
   }
 
   void find_back() {
-    // Where the back is upright a parabola y(z) through its points tells where it reaches farthest; the fillet to the
-    // tip begins there on new wheels.
+    // Where little straight back was measured a parabola y(z) through its upright points tells where it reaches
+    // farthest; the fillet to the tip begins there on new wheels.
     constexpr double kUpright = 85.0 * kDegree, kCutOff = 2.5 * kDegree, kFarthest = 30e-3;
     std::vector<Vec2> upright;
+    std::vector<double> behind_y, behind_z;
     std::size_t least = 0;
     for (std::size_t i = 0; i < tip_.node; ++i) {
       if (s_.point(i).x() < s_.point(least).x()) least = i;
+      behind_y.push_back(s_.point(i).x()), behind_z.push_back(s_.point(i).y());
       if (std::fabs(std::fabs(s_.at(i).angle()) - 0.5 * std::numbers::pi) < 0.5 * std::numbers::pi - kUpright)
         upright.push_back(s_.point(i));
     }
+    const std::optional<measured::FlangeBack> straight = measured::straight_back(behind_y, behind_z, tip_.p.y());
     double back = kUnknown;
     back_error_ = s_.at(least).error;
     constexpr std::size_t kEnough = 8;
-    if (upright.size() >= kEnough) {
+    if (straight) {
+      back = straight->y;
+      back_error_ = std::max(back_error_, s_.noise() * straight->error);
+    } else if (upright.size() >= kEnough) {
       Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
       Eigen::Vector3d right = Eigen::Vector3d::Zero();
       const auto [low, high] = std::minmax_element(upright.begin(), upright.end(),
@@ -122,7 +130,7 @@ class WheelRuler {
       back = s_.point(least).x();
     }
     constexpr double kSame = 1e-3;
-    if (back == back && std::fabs(back - s_.point(least).x()) > kSame) back = kUnknown;
+    if (!straight && back == back && std::fabs(back - s_.point(least).x()) > kSame) back = kUnknown;
     if (back == back && tip_.p.x() - back > kFarthest) back = kUnknown;
     if (back != back && g_.back) back = *g_.back;
     out_.back_seen = back == back;

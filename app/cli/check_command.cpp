@@ -15,11 +15,11 @@
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/terminal.hpp"
+#include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/app/surfaces/pages/check_page.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/surfaces/surface_check.hpp"
 #include "treadmark/core/constants.hpp"
-#include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
@@ -81,9 +81,7 @@ std::size_t doubts_of(const CheckedInput& input) {
 }
 
 void check_geometry_file(const CheckOptions& options, CheckedInput& input) {
-  if (!options.overrides.empty())
-    throw Error(ErrorKind::configuration, "--set changes keys of case files, this is none", {input.file},
-                "leave it out");
+  app::refuse_overrides(input.file, options.overrides);
   std::optional<Body> body;
   if (!options.body.empty()) body = options.body == "wheel" ? Body::wheel : Body::rail;
   add_profile(

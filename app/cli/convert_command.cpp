@@ -70,8 +70,19 @@ io::CaseFile read_cases(const ConvertOptions& options) {
   return io::read_any_case(options.input, options.overrides);
 }
 
+/// What is said of surfaces and profiles, which cases have keys for.
+void refuse_surface_options(const ConvertOptions& o) {
+  if (o.body.empty() && o.resolution_mm == 0.0 && o.nominal_radius_mm == 0.0 && o.scale_to_mm == 1.0 &&
+      o.tolerance_um == 0.0 && o.range_mm.empty() && o.range_deg.empty() && o.offsets.empty() &&
+      !o.profile.derivatives && o.profile.lambda_mm3 == 0.0 && o.profile.wavelength_mm == 0.0)
+    return;
+  throw Error(ErrorKind::configuration, "cases are written, and only --set, --at and --simulation change them",
+              {o.output}, "leave the other options out, or set keys of the shapes: --set rail.shape.scale_to_mm=1000");
+}
+
 /// Case files into each other, and instants of simulations into case files.
 int convert_cases(const ConvertOptions& options, const CommonOptions& common) {
+  refuse_surface_options(options);
   const std::filesystem::path output = options.output;
   io::CaseFile file = read_cases(options);
   app::require_registered(file);
@@ -227,10 +238,12 @@ Command add_convert(CLI::App& verb) {
       ->needs(table);
   verb.add_flag("--offsets-deg", options->offsets_deg, "Its places round a wheel are degrees, not lengths")
       ->needs(table);
-  verb.add_option("--at", options->at, "Time of an instant of a simulation [s]: its contacts become cases")
-      ->type_name("SECONDS");
+  CLI::Option* at =
+      verb.add_option("--at", options->at, "Time of an instant of a simulation [s]: its contacts become cases")
+          ->type_name("SECONDS");
   verb.add_option("--simulation", options->simulation,
-                  "With --at: the simulation file, where it is not beside the results or their folder");
+                  "With --at: the simulation file, where it is not beside the results or their folder")
+      ->needs(at);
   add_overrides(verb, options->overrides);
   return command(options, convert_command);
 }

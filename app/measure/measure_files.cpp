@@ -345,11 +345,13 @@ class RailFile {
       numbers_ = section_numbers(section);
       draw(section, numbers_);
       numbers_.roughness_exceedance.reason = "needs a scan along the rail";
+      judge_sides();
       out_.numbers = numbers_;
       return;
     }
     stations();
     roughness();
+    judge_sides();
     out_.numbers = numbers_;
   }
 
@@ -366,6 +368,22 @@ class RailFile {
     static_cast<measures::RailMeasures&>(n) =
         measures::measure_rail(section, nominals_.rail ? &*nominals_.rail : nullptr, gauge);
     return n;
+  }
+
+  /// Metal that is missing on the field side, which does not wear, and not on the gauge side is that of a left rail.
+  void judge_sides() const {
+    constexpr double kMore = 1e-3, kUpon = 0.5e-3;
+    const double gauge = numbers_.lost_gauge, more = numbers_.lost_field - gauge;
+    if (read_.kind == "library profile" || !(more > kMore)) return;
+    // a section in other axes lies aside of both sides; one that was laid on a worn side sticks out on the other one
+    if (gauge < -kUpon && numbers_.alignment != measures::RailAlignment::unworn) return;
+    const auto known = [](const std::string& note) { return note.starts_with("warning: gauge_side"); };
+    if (ranges::any_of(out_.notes, known)) return;
+    out_.notes.push_back(fmt::format(
+        "warning: gauge_side: against {} the side of great y has lost {:.2g} mm more than that of small y, and field "
+        "sides do not wear: is the gauge side the other one? {}; or is the nominal section another one?",
+        request_.nominal, 1e3 * more, read_.kind == "profile" ? "set mirror_y = true" : "mirror it"));
+    out_.doubtful = true;
   }
 
   /// Laid upon the nominal section as the numbers are.

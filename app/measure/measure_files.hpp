@@ -26,6 +26,7 @@ struct MeasureRequest {
   double scale_to_mm = 1.0;                          ///< of profile and triangle files
   std::optional<measures::RailAlignment> alignment;  ///< nothing: by the unworn parts for profiles, else as it lies
   bool as_in_file = false;                           ///< y = 0 of a wheel's file is the tape line
+  bool mirror_y = false;                             ///< negate y of a profile's file
   double line = 0.0;                                 ///< y of the line along a rail that roughness is taken from [m]
   double line_step = 1e-3;                           ///< [m]
   int stations = 36;                                 ///< sections along or round a surface

@@ -31,6 +31,8 @@ io::KeyTable<MeasureRequest> list_measure_keys() {
   keys.text("mate", "Profile of the other wheel of the axle, in the same axes: back to back", &R::mate)
       .option("--mate PROFILE");
   keys.flag("as_in_file", "y = 0 of a wheel's file is the tape line, wherever the flange back is", &R::as_in_file);
+  keys.flag("mirror_y", "Negate y of a profile's file, as of a left rail, whose gauge side is that of great y",
+            &R::mirror_y);
   keys.number("scale", io::kPositive, "From the numbers of profile and triangle files to mm", &R::scale_to_mm);
   keys.integer("stations", 1, 100000, "Sections along a rail or round a wheel", &R::stations);
   keys.number("line_mm", io::kAnyNumber, "y of the line along a rail whose roughness is told", &R::line)
@@ -57,6 +59,10 @@ MeasureRequest measure_request(Body body, const io::GivenSettings& given) {
     refuse("alignment belongs to rails", "wheels count from the flange back");
   if (body == Body::rail && request.as_in_file) refuse("as_in_file belongs to wheels", "say alignment none");
   if (body == Body::rail && !request.mate.empty()) refuse("mate is the other wheel of one wheel");
+  if (body == Body::rail && request.nominal_radius > 0.0) refuse("nominal_radius_mm belongs to wheels", "leave it out");
+  const MeasureRequest usual;
+  if (body == Body::wheel && (request.line != usual.line || request.line_step != usual.line_step))
+    refuse("line_mm and line_step_mm belong to rails", "leave them out");
   return request;
 }
 

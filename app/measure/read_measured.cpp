@@ -50,6 +50,7 @@ ReadMeasured read_points(const std::string& name, const MeasureRequest& request)
   // two wheels of an axle are measured in its axes
   if (request.as_in_file || !request.mate.empty()) options.placement = io::ProfileOptions::Placement::as_in_file;
   options.smoothing = {};  // sections do that
+  if (request.mirror_y) options.mirror_y = 1;
   io::SourcedProfile read = io::read_sourced_profile(name, request.body, options);
   ReadMeasured out;
   out.kind = "profile";
@@ -60,7 +61,7 @@ ReadMeasured read_points(const std::string& name, const MeasureRequest& request)
     out.doubtful = true;
   }
   out.flange_back = read.source.understood.wheel.back_y;
-  out.points = std::move(read.profile);
+  out.points = std::move(read.whole ? *read.whole : read.profile);
   out.nominal_radius = request.nominal_radius > 0.0 ? request.nominal_radius : read.source.nominal_radius.value_or(0.0);
   out.said = std::move(read.source.said);
   return out;
@@ -102,7 +103,26 @@ ReadMeasured read_any_surface(const std::string& name, const MeasureRequest& req
 }  // namespace
 
 ReadMeasured read_measured(const std::string& name, const MeasureRequest& request) {
-  if (is_library_name(name)) {
+  const auto refuse = [&](const char* what, const char* advice) {
+    throw Error(ErrorKind::configuration, what, {name}, advice);
+  };
+  const bool is_library = is_library_name(name);
+  const fs::path file = name;
+  const std::string extension = io::extension_of(file);
+  const bool is_case = extension == ".toml" || extension == ".inp", is_mesh = io::is_mesh_file(file),
+             is_surface = is_case || is_mesh || is_offset_file(file) || io::is_slices_file(file),
+             is_scan = is_only_scan(name);
+  if (!is_case) refuse_overrides(name, request.overrides);
+  if (request.mirror_y && (is_library || is_surface || is_scan))
+    refuse("mirror_y belongs to files of profiles",
+           is_case ? "set the key of its shape: --set rail.shape.mirror_y=true" : "leave it out, or make a case of it");
+  const auto scanned = [&] {
+    if (request.scale_to_mm != 1.0)
+      refuse("scale belongs to profiles, slices and triangles", "import it first, with --unit");
+    return read_scanned(name, request);
+  };
+  if (is_library) {
+    if (request.scale_to_mm != 1.0) refuse("scale belongs to profiles, slices and triangles", "leave it out");
     ReadMeasured out;
     out.kind = "library profile";
     out.points = library_points(name, request.body);
@@ -110,22 +130,18 @@ ReadMeasured read_measured(const std::string& name, const MeasureRequest& reques
     out.placed = true;
     return out;
   }
-  if (is_only_scan(name)) return read_scanned(name, request);
-  const fs::path file = name;
-  const std::string extension = io::extension_of(file);
-  if (extension == ".toml" || extension == ".inp" || is_offset_file(file) || io::is_slices_file(file))
-    return read_any_surface(name, request);
-  if (io::is_mesh_file(file)) {
+  if (is_scan) return scanned();
+  if (is_mesh) {
     try {
       return read_any_surface(name, request);
     } catch (const Error& error) {
       // the same extensions hold points of scanners
       if (error.message().find("triangle") == std::string::npos && error.message().find("face") == std::string::npos)
         throw;
-      return read_scanned(name, request);
+      return scanned();
     }
   }
-  return read_points(name, request);
+  return is_surface ? read_any_surface(name, request) : read_points(name, request);
 }
 
 measures::Section mirrored_section(const std::string& name, const MeasureRequest& request) {

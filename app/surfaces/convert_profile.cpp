@@ -53,7 +53,7 @@ InputProfile input_profile(const std::filesystem::path& input, const std::filesy
     refuse("ranges belong to surfaces, a profile is written", "leave them out");
   if (is_profile_file(input) && !library_body_of(input)) {
     if (settings.resolution > 0.0) refuse("the points of a profile stay as they are", "leave out --resolution");
-    if (!settings.overrides.empty()) refuse("--set changes keys of case files, this is none", "leave it out");
+    refuse_overrides(input.string(), settings.overrides);
     std::optional<Body> body = settings.body ? settings.body : io::profile_body(input);
     if (!body) body = io::profile_body(output);
     if (!body) refuse("the file does not say whether it is a wheel or a rail", "say --body wheel or --body rail");

@@ -53,6 +53,11 @@ void refuse_missing_surface(const std::filesystem::path& file, ErrorKind kind) {
                                  : fmt::format("did you mean {}?", near));
 }
 
+void refuse_overrides(const std::string& file, std::span<const std::string> overrides) {
+  if (!overrides.empty())
+    throw Error(ErrorKind::configuration, "--set changes keys of case files, this is none", {file}, "leave it out");
+}
+
 void require_wheel_radius(double radius) {
   if (radius >= kLeastWheelRadius && radius <= kMostWheelRadius) return;
   throw Error(ErrorKind::configuration,
@@ -70,7 +75,7 @@ NaturalSurface named_surface(const std::filesystem::path& file, const NamedSurfa
   const auto refuse = [&](const char* what) {
     throw Error(ErrorKind::configuration, what, {file.string()}, "leave it out");
   };
-  if (!is_case && !said.overrides.empty()) refuse("--set changes keys of case files, this is none");
+  if (!is_case) refuse_overrides(file.string(), said.overrides);
   if ((is_case || is_offset_file(file)) && said.scale_to_mm != 1.0)
     refuse("--scale belongs to profiles, slices and triangles");
   if (is_offset_file(file) && radius > 0.0)

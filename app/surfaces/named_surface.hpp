@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,6 +33,9 @@ std::string nearest_library_name(const std::string& name);
 /// Errors: always, MissingFile of this kind, which names the file or the profile of the library that was probably
 /// meant.
 [[noreturn]] void refuse_missing_surface(const std::filesystem::path& file, ErrorKind kind);
+
+/// Keys are those of cases. Errors: Error(configuration) for changes of keys ("key.path=value") of a file that is none.
+void refuse_overrides(const std::string& file, std::span<const std::string> overrides);
 
 /// Errors: Error(configuration) for a nominal radius [m] that no wheel has, as one in another unit.
 void require_wheel_radius(double radius);

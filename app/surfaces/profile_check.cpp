@@ -5,14 +5,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <tuple>
 #include <utility>
 
 #include "treadmark/analysis/measured/lumps.hpp"
 #include "treadmark/analysis/measured/noise.hpp"
 #include "treadmark/analysis/measured/nominal.hpp"
+#include "treadmark/analysis/measured/side_wear.hpp"
 #include "treadmark/analysis/measures/rail.hpp"
 #include "treadmark/analysis/measures/wheel.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
@@ -148,7 +151,8 @@ struct Roll {
 std::optional<Roll> roll_of(const io::SourcedProfile& sourced, const measured::Lean* lean) {
   constexpr double kRail = 0.05e-3, kWheel = 0.15e-3, kLarge = 0.05, kOfLargeRoll = 0.3e-3, kDeep = 10e-3;
   constexpr double kAlike = 0.02e-3, kFarOff = 0.1e-3;
-  constexpr double kTimesBetter = 1.5, kLevelTips = 0.012, kUprightBack = 0.05;
+  constexpr double kTimesBetter = 1.5, kLevelTips = 0.012;
+  constexpr double kUprightBack = 0.05, kUprightLongBack = 0.025, kLongBack = 20e-3;  // a burr tilts a short one
   constexpr double kTread = -0.045,
                    kOtherTreads = 0.055;  // treads taper off by 1:10 to level, rails are canted by 1:20
   constexpr double kNoTop = 0.09;         // of a head with its sides, which may be worn or cut
@@ -168,8 +172,9 @@ std::optional<Roll> roll_of(const io::SourcedProfile& sourced, const measured::L
   }
   if (marks.tips_lean)
     seen.push_back({*marks.tips_lean, std::fabs(*marks.tips_lean) > kLevelTips, "by the tips of its flanges"});
-  else if (marks.back_lean)
-    seen.push_back({*marks.back_lean, std::fabs(*marks.back_lean) > kUprightBack, "by the back of its flange"});
+  else if (const auto& back = marks.straight)
+    seen.push_back({back->lean, std::fabs(back->lean) > (back->length > kLongBack ? kUprightLongBack : kUprightBack),
+                    "by the back of its flange"});
   else if (marks.tread && std::fabs(marks.tread->slope - kTread) > kOtherTreads + marks.tread->spread)
     seen.push_back({marks.tread->slope - kTread, true, "by the slope of its tread"});
   else if (const auto& head = sourced.source.understood.head;
@@ -196,34 +201,74 @@ void judge_roll(const Roll& roll, Body body, const io::ExpectedProfile& expected
                                                                 : "was the measuring frame upright? turn the points")});
 }
 
-/// By nominal sections: roll; and a rail that is worn on the side of great y alone shows the gauge side there.
+bool has_remark(const io::ProfileJudgement& judgement, const char* name) {
+  return ranges::find(judgement.remarks, name, &io::ProfileRemark::name) != judgement.remarks.end();
+}
+
+/// A tread without its flange that is like a nominal one when it is turned, and not as it is; or that is worn so much
+/// that both senses of z are as likely.
+void judge_tread(const io::SourcedProfile& sourced, std::span<const measured::NominalOutline> outlines,
+                 io::ProfileJudgement& to) {
+  constexpr double kOff = 0.1e-3, kTurned = 1e-3, kTimesBetter = 3.0, kWorn = 0.5e-3, kAboutAsWell = 1.25;
+  const io::ProfileSource& source = sourced.source;
+  if (!source.understood.taken_as_it_is || has_remark(to, "upside_down")) return;
+  const auto fits = measured::tread_fits(sourced.profile, outlines);
+  const measured::TreadFit &as_it_is = fits[0], &over = fits[2].rms < fits[3].rms ? fits[2] : fits[3],
+                           &best = fits[1].rms < over.rms ? fits[1] : over;
+  if (!std::isfinite(as_it_is.rms)) return;
+  const auto mirrored = [&](const measured::TreadFit& fit) {
+    return fmt::format(
+        "no flange is in the section, and with {}{}{} mirrored it lies {:.2g} mm off {}, as in the file "
+        "{:.2g} mm",
+        fit.mirror_y ? "y" : "", fit.mirror_y && fit.mirror_z ? " and " : "", fit.mirror_z ? "z" : "", kMilli * fit.rms,
+        fit.name, kMilli * as_it_is.rms);
+  };
+  if (as_it_is.rms > kOff && best.rms < kTurned && kTimesBetter * best.rms < as_it_is.rms) {
+    std::string keys = best.mirror_y ? fmt::format("mirror_y = {}", !source.mirrored_y) : std::string();
+    if (best.mirror_z)
+      keys += fmt::format("{}mirror_z = \"{}\"", keys.empty() ? "" : ", ", source.mirrored_z ? "no" : "yes");
+    to.remarks.push_back({best.mirror_z ? "upside_down" : "flange_side", mirrored(best) + ": set " + keys});
+  } else if (as_it_is.rms > kWorn && over.rms < kAboutAsWell * as_it_is.rms) {
+    to.remarks.push_back(
+        {"upside_down", mirrored(over) + ": which way z points is not sure: set mirror_z = \"yes\" or \"no\""});
+  }
+}
+
+/// By nominal sections: roll, which way a tread points, and the gauge side of a rail, where one side alone is worn.
+/// ends: of slices, which agree in that unless they are of a crossing.
 void judge_against_nominal(const io::SourcedProfile& sourced, const io::ExpectedProfile& expected,
-                           io::ProfileJudgement& to) {
+                           std::span<const Profile* const> ends, io::ProfileJudgement& to) {
   constexpr double kFits = 0.05e-3;  // a worse fit shows nothing
   constexpr double kWorn = 1e-3, kAsNew = 0.3e-3, kShifted = 0.7e-3;
   const measured::WheelMarks& marks = sourced.source.understood.wheel;
   // one with its flange on the wrong side is told apart from all of them
-  if (ranges::find(to.remarks, "flange_side", &io::ProfileRemark::name) != to.remarks.end()) return;
+  if (has_remark(to, "flange_side")) return;
   const Profile& profile = sourced.profile;
   std::vector<measured::NominalOutline> outlines;
   for (const Standard& standard : standards(profile.body))
     if (standard.upright) outlines.push_back(standard.outline);
+  judge_tread(sourced, outlines, to);
   const std::optional<measured::Lean> lean = measured::lean_of(profile, outlines);
   if (const std::optional<Roll> roll = roll_of(sourced, lean ? &*lean : nullptr))
     judge_roll(*roll, profile.body, expected, to);
-  if (!lean || lean->residual > kFits) return;
-  if (profile.body == Body::wheel && !marks.back_y && lean->flange <= kFits && std::fabs(lean->shift_y) > kShifted &&
-      ranges::find(to.remarks, "tape_line", &io::ProfileRemark::name) == to.remarks.end())
+  const bool fits = lean && lean->residual <= kFits;
+  if (fits && profile.body == Body::wheel && !marks.back_y && lean->flange <= kFits &&
+      std::fabs(lean->shift_y) > kShifted && !has_remark(to, "tape_line"))
     to.remarks.push_back(
         {"tape_line", fmt::format("y = 0 lies {:.2f} mm from the tape line of {}, which the section fits, and the back "
                                   "of the flange is not in the section: measure it too, or shift y",
                                   kMilli * std::fabs(lean->shift_y), lean->name)});
-  if (profile.body == Body::rail && !sourced.source.mirrored_y && lean->lost_high > kWorn && lean->lost_low < kAsNew)
-    to.remarks.push_back(
-        {"gauge_side",
-         fmt::format("the side of great y is worn by {:.2g} mm against {} and that of small y, where the gauge "
-                     "is measured, by {:.2g} mm: is the gauge side there? set mirror_y = true",
-                     kMilli * lean->lost_high, lean->name, kMilli * lean->lost_low)});
+  if (profile.body == Body::wheel || has_remark(to, "gauge_side")) return;
+  std::optional<std::string> worn;
+  if (fits && lean->lost_high > kWorn && lean->lost_low < kAsNew)
+    worn = fmt::format("the side of great y is worn by {:.2g} mm against {} and that of small y by {:.2g} mm",
+                       kMilli * lean->lost_high, lean->name, kMilli * lean->lost_low);
+  else if (ranges::all_of(ends, [&](const Profile* p) { return measured::worn_at_great_y(*p, outlines).has_value(); }))
+    worn = measured::worn_at_great_y(profile, outlines);
+  if (worn)
+    to.remarks.push_back({"gauge_side", fmt::format("{}, and the gauge is measured on that of small y: is the gauge "
+                                                    "side the other one? set mirror_y = {}",
+                                                    *worn, !sourced.source.mirrored_y)});
 }
 
 enum class Nearest { no, yes };
@@ -232,7 +277,7 @@ CheckedProfile checked(const io::SourcedProfile& profile, const std::filesystem:
                        const io::ExpectedProfile& expected, Nearest nearest) {
   CheckedProfile out{fmt::format("{} profile {}", body_name(profile.profile.body), file.string()), profile.profile.body,
                      io::judge_profile(profile, expected)};
-  judge_against_nominal(profile, expected, out.judgement);
+  judge_against_nominal(profile, expected, {}, out.judgement);
   if (nearest == Nearest::yes) add_nearest(profile.profile, out.judgement);
   return out;
 }
@@ -352,15 +397,17 @@ namespace {
 /// What noise or a tilted frame would do to a section of slices, which are not smoothed.
 /// next: the section beside it.
 std::optional<io::ProfileRemark> doubt_of_section(const Profile& section, const Profile& next,
-                                                  measured::Understanding seen, const io::ExpectedProfile& expected) {
+                                                  std::span<const Profile* const> ends, measured::Understanding seen,
+                                                  const io::ExpectedProfile& expected) {
   constexpr double kFelt = 0.25e-6;  // [m] neighbouring sections take some away
   constexpr double kSamePlace = 2e-3;
   constexpr double kDense = 1e-3;  // [m] points farther apart scatter by the curve between them
   io::SourcedProfile sourced;
   sourced.profile = section;
   sourced.source.understood = std::move(seen);
+  sourced.source.understood.taken_as_it_is = false;  // slices say their axes
   io::ProfileJudgement judged;
-  judge_against_nominal(sourced, expected, judged);
+  judge_against_nominal(sourced, expected, ends, judged);
   if (!judged.remarks.empty()) return std::move(judged.remarks.front());
   const measured::PointNoise noise = measured::profile_noise(section);
   const std::optional<measured::Lump> lump = measured::highest_lump(section, noise.across, true),
@@ -409,7 +456,7 @@ std::optional<io::ProfileRemark> remark_on_slices(const SliceSet& slices, Body b
                                        kMilli * std::fabs(seen.shift_y))};
   else
     remark = doubt_of_section(slices.profiles[middle], slices.profiles[std::max<std::size_t>(1, middle) - 1],
-                              std::move(seen), expected);
+                              std::array{&slices.profiles.front(), &slices.profiles.back()}, std::move(seen), expected);
   if (remark) remark->text += "; slices are taken as they lie";
   return remark;
 }

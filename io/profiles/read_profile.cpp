@@ -143,19 +143,25 @@ void check_crossing(const RawPoints& points) {
               {points.file, points.line[second], 0}, "repair the points");
 }
 
-/// The head alone of a whole outline.
-void keep_head(RawPoints& points, Body body, std::vector<std::string>& notes) {
+RawPoints picked(const RawPoints& points, const std::vector<std::size_t>& which) {
+  RawPoints out;
+  out.file = points.file;
+  for (const std::size_t i : which) out.add(points.y[i], points.z[i], points.line[i]);
+  profiles::remove_near_points(out, kNearDistance_mm);  // where a closed outline met itself
+  return out;
+}
+
+/// Of the outline of a rail leaves the head alone, and returns all of it; nothing of other sections.
+std::optional<RawPoints> keep_head(RawPoints& points, Body body, std::vector<std::string>& notes) {
   measured::SectionPoints section{body, points.y, points.z};
   scale_to_metres(section);
-  const std::vector<std::size_t> kept = measured::head_of_outline(section);
-  if (kept.empty() || kept.size() == points.size()) return;
-  RawPoints head;
-  head.file = points.file;
-  for (const std::size_t i : kept) head.add(points.y[i], points.z[i], points.line[i]);
-  notes.push_back(
-      fmt::format("the outline of a whole rail: its head is used, {} of {} points", head.size(), points.size()));
-  profiles::remove_near_points(head, kNearDistance_mm);  // where a closed outline met itself
-  points = std::move(head);
+  const measured::RailOutline outline = measured::outline_of_rail(section);
+  if (outline.head.empty() || outline.head.size() == points.size()) return std::nullopt;
+  notes.push_back(fmt::format("the outline of a whole rail: contact takes its head, {} of {} points",
+                              outline.head.size(), points.size()));
+  RawPoints whole = picked(points, outline.whole);
+  points = picked(points, outline.head);
+  return whole;
 }
 
 measured::Words words_of(const ProfileOptions& options, const RawPoints& points, Body body, bool radii) {
@@ -174,7 +180,7 @@ measured::Words words_of(const ProfileOptions& options, const RawPoints& points,
 SourcedProfile finish(RawPoints&& points, Body body, bool inverted, bool radii, const ProfileOptions& options,
                       ProfileSource&& source) {
   check_count(points);
-  keep_head(points, body, source.notes);
+  std::optional<RawPoints> whole = keep_head(points, body, source.notes);
   check_length(points, body, options.scale);
   profiles::refuse_faults(points);
   measured::SectionPoints section{body, std::move(points.y), std::move(points.z)};
@@ -196,6 +202,15 @@ SourcedProfile finish(RawPoints&& points, Body body, bool inverted, bool radii, 
   out.profile.z = std::move(points.z);
   out.profile.name = points.file;
   out.profile.smoothing = options.smoothing;
+  if (whole) {
+    // turned as its head was, which shows more
+    if (source.reversed) reverse(*whole);
+    Profile& outline = out.whole.emplace();
+    outline.body = body;
+    outline.name = points.file;
+    for (const double y : whole->y) outline.y.push_back(kMillimetre * (seen.mirrored_y ? -y : y));
+    for (const double z : whole->z) outline.z.push_back(kMillimetre * (seen.mirrored_z ? -z : z));
+  }
   source.lines = std::move(points.line);
   out.source = std::move(source);
   return out;

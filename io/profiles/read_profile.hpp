@@ -35,6 +35,8 @@ std::optional<Body> profile_body(const std::filesystem::path& file);
 struct SourcedProfile {
   Profile profile;
   ProfileSource source;
+  std::optional<Profile> whole = {};  ///< of the outline of a rail, of which profile is the head: with its web and
+                                      ///< foot, not smoothed
 };
 
 /// Reads and cleans one profile: near points, zig-zags, shifts, bounds, mirroring, scale, order of the points. The

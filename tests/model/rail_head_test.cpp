@@ -12,21 +12,21 @@
 namespace treadmark {
 namespace {
 
-/// A head of 70 mm about y = 0, a groove to one side of it, and a keeper of 20 mm whose top is at z = keeper.
+/// A head of 70 mm about y = 0, a groove to one side of it, and a keeper or check rail whose top is at z = keeper.
 struct Grooved {
   std::vector<double> y, z;
-  Grooved(double keeper, double side) {
-    for (int k = -1200; k <= 1200; ++k) {
+  Grooved(double keeper, double side, double width = 20e-3) {
+    for (int k = -1400; k <= 1400; ++k) {
       y.push_back(1e-4 * k);
       const double at = side * y.back(), up = std::fabs(at) < 35e-3 ? at * at / 0.6 : 40e-3;
-      z.push_back(at > 70e-3 && at < 90e-3 ? keeper : up);
+      z.push_back(at > 70e-3 && at < 70e-3 + width ? keeper : up);
     }
   }
 };
 
 TEST(RailHead, IsTheWiderPieceWhereverTheKeeperIs) {
   for (const double side : {1.0, -1.0})
-    for (const double keeper : {-12e-3, -2e-3, 0.0, 3e-3, 13e-3, 30e-3}) {
+    for (const double keeper : {-25e-3, -15e-3, -12e-3, -2e-3, 0.0, 3e-3, 13e-3, 30e-3}) {
       const Grooved s(keeper, side);
       const auto head = head_of_rail(s.y, s.z, 14e-3);
       ASSERT_TRUE(head);
@@ -35,6 +35,19 @@ TEST(RailHead, IsTheWiderPieceWhereverTheKeeperIs) {
       EXPECT_NEAR(s.y[head->top], 0.0, 1e-9);
       EXPECT_EQ(head->z_top, s.z[head->top]);
     }
+}
+
+TEST(RailHead, AWideCheckRailIsNoHead) {
+  for (const double side : {1.0, -1.0})
+    for (const double width : {36e-3, 60e-3})
+      for (const double keeper : {-25e-3, -20e-3, -15e-3, -5e-3, 0.0, 10e-3}) {
+        const Grooved s(keeper, side, width);
+        const auto head = head_of_rail(s.y, s.z, 14e-3);
+        ASSERT_TRUE(head);
+        EXPECT_NEAR(s.y[head->first], -35e-3, 2e-4) << keeper << ' ' << side << ' ' << width;
+        EXPECT_NEAR(s.y[head->last], 35e-3, 2e-4);
+        EXPECT_NEAR(s.z[head->top], 0.0, 1e-9);
+      }
 }
 
 TEST(RailHead, TheInnermostPieceIsToldFromTheTopOfAll) {
@@ -47,7 +60,7 @@ TEST(RailHead, TheInnermostPieceIsToldFromTheTopOfAll) {
 
 TEST(RailHead, HolesEndNothing) {
   Grooved s(0.0, 1.0);
-  for (std::size_t i = 1300; i < 1330; ++i) s.z[i] = kNaN;
+  for (std::size_t i = 1500; i < 1530; ++i) s.z[i] = kNaN;
   s.z.front() = s.z.back() = kNaN;
   const auto head = head_of_rail(s.y, s.z, 14e-3);
   ASSERT_TRUE(head);

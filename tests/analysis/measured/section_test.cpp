@@ -131,16 +131,46 @@ TEST(MeasuredSection, KeepsTheHeadOfAWholeOutline) {
   for (const double sign : {1.0, -1.0}) {
     SectionPoints q = p;
     for (double& z : q.z) z *= sign;
-    const std::vector<std::size_t> kept = head_of_outline(q);
-    ASSERT_FALSE(kept.empty());
+    const RailOutline outline = outline_of_rail(q);
+    ASSERT_FALSE(outline.head.empty());
     double low = 1.0, high = -1.0;
-    for (const std::size_t i : kept) low = std::min(low, sign * q.z[i]), high = std::max(high, sign * q.z[i]);
+    for (const std::size_t i : outline.head) low = std::min(low, sign * q.z[i]), high = std::max(high, sign * q.z[i]);
     EXPECT_NEAR(low, 0.0, 1e-12);
     EXPECT_NEAR(high, 0.040, 3e-3);
+    // all of it from the middle of the foot
+    ASSERT_EQ(outline.whole.size(), q.y.size());
+    EXPECT_NEAR(q.y[outline.whole.front()], 0.0, 4e-3);
+    EXPECT_NEAR(sign * q.z[outline.whole.front()], 0.160, 1e-12);
   }
-  EXPECT_TRUE(head_of_outline(wheel(0.0)).empty());
+  EXPECT_TRUE(outline_of_rail(wheel(0.0)).head.empty());
   for (std::size_t i = 0; i < p.y.size(); ++i) p.y[i] *= 1e3, p.z[i] *= 1e3;  // um that were read as mm
-  EXPECT_TRUE(head_of_outline(p).empty());
+  EXPECT_TRUE(outline_of_rail(p).head.empty());
+}
+
+TEST(MeasuredSection, TheStraightPartOfABackIsFoundBesideABurrAndALeaningOneLeans) {
+  constexpr double kTip = 28e-3, kFillet = 18.5e-3;
+  for (const double lean : {-0.04, 0.0, 0.04})
+    for (const double burr : {0.0, 0.4e-3, 2e-3})
+      for (const double at : {12e-3, 2e-3, -20e-3}) {
+        std::vector<double> y, z;
+        for (double height = -35e-3; height < 20e-3; height += 0.2e-3) {
+          const double up = std::max(0.0, height - (kTip - kFillet));  // a fillet of 20 mm radius
+          y.push_back(-70e-3 - std::tan(lean) * (height - (kTip - kFillet)) + up * up / 40e-3 -
+                      burr * std::exp(-std::pow((height - at) / 3e-3, 2)));
+          z.push_back(height);
+        }
+        const std::optional<FlangeBack> back = straight_back(y, z, kTip);
+        ASSERT_TRUE(back);
+        EXPECT_NEAR(back->y, -70e-3, 1e-5) << lean << ' ' << burr << ' ' << at;
+        EXPECT_NEAR(back->lean, lean, 3e-4) << lean << ' ' << burr << ' ' << at;
+        EXPECT_NEAR(back->beyond, burr, at > 10e-3 ? 0.5 * burr + 1e-6 : 0.05e-3) << lean << ' ' << burr << ' ' << at;
+        EXPECT_GT(back->length, 30e-3);
+      }
+  // a curve has none
+  std::vector<double> y, z;
+  for (double height = -35e-3; height < 20e-3; height += 0.2e-3)
+    y.push_back(-70e-3 + std::pow(height, 2) / 40e-3), z.push_back(height);
+  EXPECT_FALSE(straight_back(y, z, kTip));
 }
 
 TEST(MeasuredSection, DirtStandsOutAndCornersDoNot) {

@@ -193,6 +193,19 @@ TEST(WheelMeasures, WhatIsNoWheelIsRefusedByName) {
   expect_refused(flange, "no tape line");
 }
 
+TEST(WheelMeasures, ABurrOnTheBackIsNotTheBack) {
+  Profile wheel = points_of("S1002");
+  for (double z = wheel.z.back() - 0.2e-3; z > -50e-3; z -= 0.2e-3) wheel.y.push_back(-70e-3), wheel.z.push_back(z);
+  for (const double burr : {0.0, 1.5e-3}) {
+    Profile p = wheel;
+    for (std::size_t i = 0; i < p.y.size(); ++i)
+      if (p.y[i] < -67e-3) p.y[i] -= burr * std::exp(-std::pow((p.z[i] - 12e-3) / 3e-3, 2));
+    const WheelMeasures m = measure_wheel(Section(p));
+    EXPECT_NEAR(m.flange_thickness.value, 32.5 * kMm, 1e-5) << burr;
+    EXPECT_TRUE(m.back_seen);
+  }
+}
+
 TEST(WheelMeasures, WithoutTheBackThereIsNoThickness) {
   Profile half = points_of("S1002");
   while (half.y.back() < -58e-3) half.y.pop_back(), half.z.pop_back();
