@@ -73,6 +73,7 @@ class Judge {
                        ? fmt::format("{}", p_.y.size())
                        : fmt::format("{} of {} in the file", p_.y.size(), source_.points_in_file));
     for (const auto& [name, value] : source_.said) fact("file says", fmt::format("{} = {}", name, value));
+    for (const measured::Doubt& doubt : source_.doubts) remark(doubt.name.c_str(), doubt.text);
   }
 
   void ranges() {
