@@ -341,6 +341,34 @@ std::vector<io::ProfileRemark> doubts_of(const io::SourcedProfile& profile) {
   return checked(profile, {}, {{}, {}, false, {}}, Nearest::no).judgement.remarks;
 }
 
+std::optional<FittingStandard> fitting_standard(const measures::Section& section, bool as_new) {
+  constexpr double kSameWidth = 0.3e-3, kSameCrown = 0.1;  // [m]; of the radius
+  const bool rail = section.body() == Body::rail;
+  const measures::RailMeasures own = rail ? measures::measure_rail(section, nullptr) : measures::RailMeasures{};
+  std::optional<FittingStandard> best;
+  for (const Standard& standard : standards(section.body())) {
+    FittingStandard one{standard.name};
+    try {
+      if (rail) {
+        const measures::RailMeasures its = measures::measure_rail(standard.section, nullptr);
+        const bool alike = std::fabs(own.head_width.value - its.head_width.value) < kSameWidth &&
+                           std::fabs(own.crown_radius.value / its.crown_radius.value - 1.0) < kSameCrown;
+        if (as_new && !alike) continue;
+        const measures::RailMeasures m = measures::measure_rail(section, &standard.section);
+        one.lost = m.loss.value, one.gained = m.lip.value;
+      } else {
+        const measures::WheelMeasures m =
+            measures::measure_wheel(section, {}, 0.0, {{standard.name, standard.section}});
+        one.lost = m.area_lost.value, one.gained = m.area_gained.value;
+      }
+    } catch (const Error&) {
+      continue;  // they have too little in common
+    }
+    if (one.badness() < (best ? best->badness() : kInfinity)) best = std::move(one);
+  }
+  return best;
+}
+
 std::vector<CheckedProfile> check_profiles(const io::CaseFile& file) {
   std::vector<CheckedProfile> out;
   for (auto& [use, profile] : checked_uses(file, Nearest::yes)) out.push_back(std::move(profile));
