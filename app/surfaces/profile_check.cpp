@@ -187,7 +187,10 @@ void judge_roll(const Roll& roll, Body body, const io::ExpectedProfile& expected
       fmt::format("by {:.1f} mrad ({:.1f} degrees) {}", kMilli * roll.roll, roll.roll * 180.0 / kPi, roll.seen);
   const bool may_be_inclined = body == Body::rail && std::fabs(roll.roll) < kMostInclined;
   if (!roll.sure || std::fabs(roll.roll) < measured::kLevel)
-    to.facts.emplace_back("roll", seen);
+    to.facts.emplace_back("roll",
+                          seen + fmt::format("; up to {:g} mrad are not doubted, though where wheel and rail are "
+                                             "nearly alike 2 mrad may change pressures by 15 %",
+                                             kMilli * measured::kLevel));
   else if (may_be_inclined && !expected.cant)
     to.facts.emplace_back("roll", seen + "; if the rail is inclined, track.cant is 0");
   else if (!may_be_inclined || std::fabs(*expected.cant) > kUpright)
