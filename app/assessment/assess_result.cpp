@@ -171,8 +171,7 @@ void add_doubts(AssessedRun& run) {
   if (ranges::any_of(run.cant_deficiency, [](double d) { return std::isfinite(d); }) &&
       ranges::find(run.result->statics, kCantBaseName, &io::NamedValue::name) == run.result->statics.end())
     run.doubts.push_back(
-        "cant deficiencies are those of a base of 1.5 m and of 9.81 m/s2: the result, of an older version, says "
-        "neither");
+        "cant deficiencies are those of a base of 1.5 m and of 9.81 m/s2: the result of an older version says neither");
   std::map<measures::AssessedStatus, std::pair<std::size_t, std::string>> counts;
   for (const measures::Assessed& one : run.quantities)
     if (one.status != measures::AssessedStatus::ok) {

@@ -36,8 +36,7 @@ struct AssessedRun {
   std::shared_ptr<const io::SimulationResult> result;
   AssessmentRequest request;  ///< with its sections
   std::vector<measures::Assessed> quantities;
-  std::vector<double>
-      cant_deficiency;  ///< mean of each section, for the base of the line [m]; NaN: no line in the history
+  std::vector<double> cant_deficiency;  ///< mean of each section, by the line's base [m]; NaN: no line in the history
   std::vector<ChannelSpectrum> spectra;
   std::vector<std::string> doubts;
 

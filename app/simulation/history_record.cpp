@@ -407,7 +407,7 @@ void HistorySummary::note_choices() {
 void HistorySummary::note_speed() {
   const vehicle::VehicleOnTrack& v = simulation_.vehicle();
   if (!v.system.free_along) return;
-  const vehicle::Travel travel = v.travel(simulation_.state().time);
+  const Travel travel = v.travel(simulation_.state().time);
   const OtherSpeed now{travel.distance, v.mean_speed(simulation_.state()), travel.speed};
   if (is_another_speed(now.mean, now.wanted) && now.share() > other_speed_.share()) other_speed_ = now;
 }

@@ -134,8 +134,7 @@ class Run {
   const char* no_balance_advice() const {
     if (!file_.train.empty())
       return "let a train start on a straight at constant speed and gradient, with torques and forces that grow from "
-             "0: "
-             "where couplers have free play each vehicle must be in balance by itself";
+             "0: where couplers have free play each vehicle must be in balance by itself";
     return built_.vehicle.line && built_.vehicle.line->setup().path
                ? "let the vehicle start on a straight in front of the curve (layout.start_m)"
                : vehicle::kNoEquilibriumAdvice;
@@ -282,8 +281,7 @@ class Run {
     if (!(most.wanted > 0.0)) return {};
     return fmt::format(
         "the vehicles do not keep their speed: at x = {:.4g} m they run at {:.4g} m/s, not at the {:.4g} m/s that {}: "
-        "what "
-        "wheels take makes the difference, and places on the line are off by it",
+        "what wheels take makes the difference, and places on the line are off by it",
         most.place, most.mean, most.wanted,
         file_.free_run ? "torques, gradients and resistance give"
                        : "the file wants, as nothing holds them along the track (simulation.free_run drives them)");

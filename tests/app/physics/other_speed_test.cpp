@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-
 #include <gtest/gtest.h>
 
 #include "treadmark/app/simulation/history_record.hpp"
