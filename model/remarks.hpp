@@ -128,7 +128,8 @@ inline constexpr RemarkRow kRemarkRows[] = {
     {RemarkKind::unusual_value, "unusual_value", true,
      "a number of the problem that no railway has, as in another unit: a load, gauge, radius, speed, angle or place"},
     {RemarkKind::noisy_profile, "noisy_profile", true,
-     "noise of a measured profile or scan leaves a standard deviation of more than 2.5 % of the largest pressure"},
+     "noise of a measured profile or scan, or points far apart, leave a standard deviation of more than 2.5 % of the "
+     "largest pressure"},
     {RemarkKind::locus_incomplete, "locus_incomplete", false,
      "on a rail that changes along the track a grid shows contact of more than 3 um that the locus search of CONTACT's "
      "input (D = 2, 3, 4, 7) missed, or none where it found some: the refined grid search decides"},

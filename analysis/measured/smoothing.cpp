@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "treadmark/analysis/measured/interpolation.hpp"
 #include "treadmark/analysis/measured/noise.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/line.hpp"
@@ -637,29 +638,30 @@ Values restless_cells(Restless where, const Knots& knots, const Knots& before, c
 
 constexpr double kNarrow = 3.0, kFine = 1.0;  ///< of the logarithm of the penalties
 
+double normal(Random& random) {  // Box and Muller (1958)
+  const double size = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
+  return size * std::cos(2.0 * kPi * random.uniform());
+}
+
 /// Errors that the curve may have, as coefficients: of curves laid anew, penalties and all, through points that other
 /// probable curves would have given (Efron 1979). The curve's own covariance alone takes the penalties for known.
 std::vector<Values> errors_of(const Laid& laid, double across, bool rounded, std::uint64_t seed) {
   constexpr int kTurns = 3;
   Random random(seed);
-  const auto normal = [&] {  // Box and Muller (1958)
-    const double size = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
-    return size * std::cos(2.0 * kPi * random.uniform());
-  };
   const Knots& knots = laid.line.knots;
   const double deviation = std::sqrt(laid.fit.variance);
   std::vector<Values> out;
   Straightened line = laid.line;
   for (int draw = 0; draw < kErrorDraws; ++draw) {
     Values error(laid.fit.heights.size());
-    for (double& e : error) e = normal();
+    for (double& e : error) e = normal(random);
     laid.fit.precision.draw(error);
     for (double& e : error) e *= deviation;
     if (!rounded) {
       Values curve = laid.fit.heights;
       for (std::size_t k = 0; k < curve.size(); ++k) curve[k] += error[k];
       for (std::size_t i = 0; i < line.s.size(); ++i)
-        line.height[i] = knots.value(curve, line.s[i]) + deviation / std::sqrt(line.weight[i]) * normal();
+        line.height[i] = knots.value(curve, line.s[i]) + deviation / std::sqrt(line.weight[i]) * normal(random);
       Values heights;
       for (int turn = 0; turn < kTurns; ++turn) {
         const Problem problem(line, restless_cells(turn > 0 ? laid.where : Restless::anywhere, knots, knots, heights),
@@ -773,6 +775,42 @@ std::vector<Laid> other_curves(const Points& points, const PointNoise& noise, Bo
   return out;
 }
 
+/// Of exact points: splines that vanish at them and are as large midway as the curve may be off there.
+void add_errors_between(const Profile& profile, ProfileScatter& scatter) {
+  constexpr double kNearlyNone = 1e-9;  // makes splines certain where points are farther apart than knots
+  const BetweenPoints known = known_between(profile);
+  if (known.deviation.empty()) return;
+  Values s, deviation;
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < known.s.size(); ++i) {
+    s.push_back(kMm * known.s[i]);
+    deviation.push_back(0.0);
+    if (i == known.deviation.size() || !(known.deviation[i] > 0.0)) continue;
+    const double half = 0.5 * kMm * (known.s[i + 1] - known.s[i]);
+    s.push_back(kMm * known.s[i] + half);
+    deviation.push_back(kMm * known.deviation[i]);
+    step = std::min(step, half);
+  }
+  const Knots knots = Knots::over(s.front(), s.back(), step);
+  Random random(profile.body == Body::rail ? 4 : 3);
+  std::vector<Values> errors;
+  while (errors.size() < at(kErrorDraws)) {
+    Values one(deviation), other(deviation);
+    for (std::size_t i = 0; i < deviation.size(); ++i) one[i] *= normal(random), other[i] *= normal(random);
+    Curve pair = even_curve(knots, s, one, other, kNearlyNone);
+    if (pair.y.empty()) return;
+    errors.push_back(std::move(pair.y));
+    errors.push_back(std::move(pair.z));
+  }
+  for (Values& error : errors)
+    for (double& e : error) e /= kMm;
+  scatter.s = known.s;
+  scatter.between = known.deviation;
+  scatter.first_knot = knots.first / kMm;
+  scatter.knot_step = knots.step / kMm;
+  scatter.errors = std::move(errors);
+}
+
 Profile smoothed(Profile profile) {
   constexpr std::size_t kFewest = 16;
   const std::size_t n = profile.y.size();
@@ -784,6 +822,7 @@ Profile smoothed(Profile profile) {
   scatter->rounding_z = noise.rounding_z;
   scatter->step = noise.step;
   profile.scatter = scatter;
+  if (noise.across < kExactPoints) add_errors_between(profile, *scatter);
   if (noise.across < kExactPoints || !(noise.step > 0.0)) return profile;
 
   Points points;
@@ -866,10 +905,15 @@ double ErrorDraws::at(std::size_t draw, double s) const {
 }
 
 Profile ErrorDraws::moved(Profile profile, std::size_t draw) const {
+  Values s = scatter_->s;
+  if (!scatter_->between.empty()) {
+    profile = with_middles(profile, {scatter_->s, scatter_->between}, s);
+    profile.scatter = nullptr;  // of the points that there were
+  }
   const Values y = profile.y, z = profile.z;
   for (std::size_t i = 0; i < y.size(); ++i) {
     const std::size_t a = i > 0 ? i - 1 : i, b = std::min(i + 1, y.size() - 1);
-    const double length = std::hypot(y[b] - y[a], z[b] - z[a]), error = at(draw, scatter_->s[i]);
+    const double length = std::hypot(y[b] - y[a], z[b] - z[a]), error = at(draw, s[i]);
     profile.y[i] -= error * (z[b] - z[a]) / length;
     profile.z[i] += error * (y[b] - y[a]) / length;
   }
@@ -894,6 +938,8 @@ std::vector<double> deviations(const ProfileScatter& scatter) {
   for (std::size_t i = 0; i < scatter.s.size(); ++i) {
     out.push_back(deviation_of_sum(scatter, {&scatter.s[i], 1}, {&one, 1}));
     for (const std::vector<double>& other : scatter.others) out.back() = std::hypot(out.back(), other[i]);
+    for (const std::size_t k : {i - 1, i})  // beside the first point there is none before it
+      if (k < scatter.between.size()) out.back() = std::max(out.back(), scatter.between[k]);
   }
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -141,12 +142,14 @@ class RailRuler {
     check_shape();
     align();
     own();
-    if (nominal_ == nullptr)
+    if (nominal_ == nullptr) {
       for (Measure* m : {&out_.w1, &out_.w2, &out_.w3, &out_.equivalent, &out_.loss, &out_.loss_top, &out_.loss_side,
                          &out_.loss_part, &out_.lip})
         *m = not_railed("no nominal profile was named");
-    else
+    } else {
       against();
+      judge_nominal();
+    }
     return out_;
   }
 
@@ -232,6 +235,7 @@ class RailRuler {
       for (int k = 0; k < parts; ++k) places.push_back({from + d * (static_cast<double>(k) / parts), parts});
     }
     double rms = kUnknown;
+    std::size_t fitted = 0;
     Eigen::Matrix3d normal, spread;  // spread: of the right side, for a scatter of one
     double near = 8e-3;
     for (int round = 0; round < 40; ++round) {
@@ -258,7 +262,8 @@ class RailRuler {
         sizes.push_back(std::fabs(foot->distance));
       }
       constexpr std::size_t kFewest = 12;
-      if (rows.size() < kFewest) give_up();
+      fitted = rows.size();
+      if (fitted < kFewest) give_up();
       std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
       const double cut = std::max(4.685 * 1.4826 * sizes[sizes.size() / 2], 1e-5);
       double sum = 0.0, weights = 0.0;
@@ -282,7 +287,11 @@ class RailRuler {
     s_.move(turn, shift);
     out_.shift_y = shift.x(), out_.shift_z = shift.y(), out_.residual = rms;
     const Eigen::Matrix3d inverse = normal.inverse();
-    const Eigen::Matrix3d variance = inverse * spread * inverse * std::max(rms * rms, s_.noise() * s_.noise());
+    // what differs by more than scatter differs alike over some millimetres
+    constexpr double kAlike = 10e-3;
+    const double scatter = std::pow(s_.scatter(fitted, kApart * static_cast<double>(fitted)), 2);
+    const double one = scatter + kAlike / kApart * std::max(0.0, rms * rms - scatter);
+    const Eigen::Matrix3d variance = inverse * spread * inverse * one;
     align_y_ = std::sqrt(variance(0, 0)), align_z_ = std::sqrt(variance(1, 1));
     // The section had to be turned back by turn: it was inclined by -turn, which lowers -y where it is positive.
     out_.inclination = railed(turn, std::sqrt(variance(2, 2)) / kArm);
@@ -326,7 +335,8 @@ class RailRuler {
       const Eigen::Vector3d c = normal.ldlt().solve(sums);
       const double radius = std::sqrt(c[2] + 0.25 * (c[0] * c[0] + c[1] * c[1]));
       // curvature from a parabola: 180^(1/2) sigma / (n^(1/2) half^2), relative to 1/R
-      const double curvature = std::sqrt(180.0 / count) * s_.noise() / (4.0 * g_.crown_half * g_.crown_half);
+      const double scatter = s_.scatter(static_cast<std::size_t>(count), 2.0 * g_.crown_half);
+      const double curvature = std::sqrt(180.0 / count) * scatter / (4.0 * g_.crown_half * g_.crown_half);
       out_.crown_radius = railed(radius, radius * radius * 2.0 * curvature);
     } else {
       out_.crown_radius = not_railed("too little of the crown is in the section");
@@ -350,7 +360,8 @@ class RailRuler {
           zz += d.y() * d.y(), yz += d.x() * d.y();
         }
       // -y is outwards: a face that leads inwards on its way up is inclined
-      out_.face_angle = railed(kRightAngle - std::atan2(-yz, zz), s_.noise() / std::sqrt(std::max(zz, 1e-12)));
+      const double scatter = s_.scatter(static_cast<std::size_t>(points), g_.face_to - g_.face_from);
+      out_.face_angle = railed(kRightAngle - std::atan2(-yz, zz), scatter / std::sqrt(std::max(zz, 1e-12)));
     } else {
       out_.face_angle = not_railed("the gauge face is not in the section");
     }
@@ -392,6 +403,55 @@ class RailRuler {
     for (std::size_t i = 0; i < count; ++i)
       if (const double lost = way * (wanted[i] - own[i]); !std::isnan(lost)) sum += lost, ++known;
     return known < kFewest ? kUnknown : sum / static_cast<double>(known);
+  }
+
+  void doubt(std::string text) { out_.doubts.push_back({"nominal_profile", std::move(text)}); }
+
+  /// Rails are rolled to some tenths of a millimetre (EN 13674-1: heads to 0.5 mm in width, 0.6 mm in height), and
+  /// metal does not grow, but for lips that flow out of the gauge side.
+  void judge_nominal() {
+    constexpr double kRolled = 0.3e-3, kInPlace = 0.5e-3, kGrown = 0.6e-3, kLip = 2e-3;
+    if (out_.residual > std::hypot(kRolled, s_.noise()))
+      doubt(
+          fmt::format("what does not wear lies {:.2f} mm (rms) off the nominal section, which rails are rolled to {:g} "
+                      "mm of: is it another rail's?",
+                      1e3 * out_.residual, 1e3 * kRolled));
+    if (const double off = out_.alignment == RailAlignment::none ? off_unworn() : 0.0;
+        off > std::hypot(kInPlace, s_.noise()))
+      doubt(
+          fmt::format("as the section lies, a third of what does not wear is {:.2f} mm or more off the nominal one: is "
+                      "it another rail's, or not in its axes? say --alignment unworn",
+                      1e3 * off));
+    const struct {
+      const char* name;
+      const Measure& wear;
+      double grown;
+    } wears[] = {{"W1", out_.w1, kGrown}, {"W2", out_.w2, kLip}, {"W3", out_.w3, kGrown}};
+    for (const auto& [name, wear, grown] : wears)
+      if (const double most = grown + std::fmax(0.0, wear.uncertainty); wear.known() && wear.value < -most)
+        doubt(
+            fmt::format("{} is {:.2f} mm: metal would have grown there by more than rolling ({:g} mm) and its "
+                        "uncertainty explain: is the nominal section another rail's, or aligned by what has worn?",
+                        name, 1e3 * wear.value, 1e3 * grown));
+  }
+
+  /// Distance of a third of what does not wear from the nominal section, at most as far as is looked [m]; 0: too little
+  /// of it is there.
+  double off_unworn() const {
+    constexpr double kFrom = 10e-3, kFarthest = 8e-3;
+    constexpr std::size_t kFewest = 12;
+    const Outline outline(*nominal_);
+    std::vector<double> sizes;
+    for (std::size_t i = 0; i < s_.size(); ++i) {
+      const Vec2& p = s_.point(i);
+      if (p.y() < kFrom || p.y() > nominal_->z_max()) continue;  // below a nominal head there may be a web
+      const auto foot = outline.nearest(p, kFarthest);
+      if (!foot || unworn(foot->p, foot->normal)) sizes.push_back(foot ? std::fabs(foot->distance) : kFarthest);
+    }
+    if (sizes.size() < kFewest) return 0.0;
+    const auto third = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 3);
+    std::nth_element(sizes.begin(), third, sizes.end(), std::greater<>());
+    return *third;
   }
 
   /// Where the nominal section is inclined by 45 degrees on the gauge side.

@@ -4,7 +4,9 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "treadmark/analysis/measured/section.hpp"
 #include "treadmark/analysis/measures/section.hpp"
 
 namespace treadmark::measures {
@@ -47,12 +49,14 @@ struct RailMeasures {
   RailAlignment alignment = RailAlignment::none;        ///< that was used
   double shift_y = 0.0, shift_z = 0.0;                  ///< of the section onto the nominal one, after the turn [m]
   double residual = kUnknown;                           ///< of the parts that were laid upon each other, rms [m]
+  std::vector<measured::Doubt> doubts;  ///< "nominal_profile": whether the nominal section is this rail's
 };
 
 /// Measures a rail against a nominal section (its whole outline or its head, crown at the origin), which may be null:
-/// then only what needs none. What cannot be measured has a reason. Thread-safe. Errors: Error(input_data) for a
-/// section that does not look like a rail (a wheel, upside down), or where the alignment that is asked for has nothing
-/// to hold on.
+/// then only what needs none. What cannot be measured has a reason. A nominal section is doubted where what does not
+/// wear lies off it by more than rails are rolled to, or metal would have grown. Thread-safe. Errors: Error(input_data)
+/// for a section that does not look like a rail (a wheel, upside down), or where the alignment that is asked for has
+/// nothing to hold on.
 RailMeasures measure_rail(const Section& section, const Section* nominal, const RailGauge& gauge = {});
 
 }  // namespace treadmark::measures

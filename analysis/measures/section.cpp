@@ -189,7 +189,14 @@ void Section::move(double turn, const Vec2& shift) {
 }
 
 void Section::claim_error(double error) {
+  claimed_ = error;
   for (Node& n : nodes_) n.error = error;
+}
+
+double Section::scatter(std::size_t count, double length) const {
+  constexpr double kShared = 4e-3;  // [m] as long as the knots of fits that tell errors
+  if (!claimed_) return noise_;
+  return *claimed_ * std::sqrt(static_cast<double>(count) / std::max(1.0, length / kShared));
 }
 
 Section Section::mirrored() const {

@@ -72,8 +72,12 @@ class Section {
 
   /// Turned by turn (y towards z), then shifted.
   void move(double turn, const Vec2& shift);
-  /// What is known of the error across the curve, instead of what the noise leaves [m].
+  /// What is known of the error across the curve, instead of what the noise leaves [m]; NaN: nothing is. Places within
+  /// some millimetres share it.
   void claim_error(double error);
+  /// Standard deviation of what `count` nodes over a length [m] would be off by, each by itself, if their mean is known
+  /// as well as it is: their noise, or more where they share a claimed error. NaN: unknown.
+  double scatter(std::size_t count, double length) const;
   /// Turned over: y becomes -y and the order is reversed.
   Section mirrored() const;
 
@@ -90,6 +94,7 @@ class Section {
 
   Body body_ = Body::rail;
   double noise_ = 0.0;
+  std::optional<double> claimed_;
   double y_min_ = 0.0, y_max_ = 0.0, z_min_ = 0.0, z_max_ = 0.0;
   std::vector<Node> nodes_;
 };

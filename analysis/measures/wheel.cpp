@@ -12,6 +12,7 @@
 
 #include "treadmark/analysis/measured/section.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/median.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::measures {
@@ -123,9 +124,11 @@ class WheelRuler {
       if (const double t = c[2] > 0.0 ? -0.5 * c[1] / c[2] : 2.0; std::fabs(t) < 1.0) farthest = t;
       // a section that is cut off in the fillet between back and tip does not reach the back
       const Eigen::Vector3d slope(0.0, 1.0, 2.0 * farthest), value(1.0, farthest, farthest * farthest);
-      const double scatter = kTwoSided * s_.noise() * std::sqrt(std::max(0.0, slope.dot(inverse * slope)));
-      if (std::fabs(slope.dot(c)) < std::tan(kCutOff) * half + scatter) back = at(farthest);
-      back_error_ = std::max(back_error_, s_.noise() * std::sqrt(std::max(0.0, value.dot(inverse * value))));
+      const double noise = s_.scatter(upright.size(), 2.0 * half);
+      const double scatter = kTwoSided * noise * std::sqrt(std::max(0.0, slope.dot(inverse * slope)));
+      const double most = std::tan(kCutOff) * half + (std::isnan(scatter) ? 0.0 : scatter);
+      if (std::fabs(slope.dot(c)) < most) back = at(farthest);
+      back_error_ = std::max(back_error_, noise * std::sqrt(std::max(0.0, value.dot(inverse * value))));
     } else if (std::fabs(std::fabs(s_.at(least).angle()) - 0.5 * std::numbers::pi) < kCutOff) {
       back = s_.point(least).x();
     }
@@ -271,6 +274,7 @@ class WheelRuler {
       return;
     }
     out_.tread_wear = measured(tip_.p.y() - fresh.flange_height.value, out_.flange_height.uncertainty / kTwoSided);
+    judge_nominal(nominal, fresh.flange_height.value);
     if (!out_.back_seen && g_.from_flange_back && !g_.placed) return;
     // both faces at one depth below the tip, since a worn tread alone makes a flange thicker 10 mm below it
     const double below = fresh.flange_height.value - g_.face_depth;
@@ -280,8 +284,48 @@ class WheelRuler {
       out_.flange_wear = measured(new_face->p.x() - worn->p.x(), std::hypot(error_y(*worn), back_error_, tip_.error));
     else
       out_.flange_wear = missing("the flange face is not in the section");
+    judge_growth("flange wear", out_.flange_wear);
     areas(nominal, fresh.flange_height.value);
     reprofile(nominals);
+  }
+
+  void doubt(std::string text) { out_.doubts.push_back({"nominal_profile", std::move(text)}); }
+
+  /// Wheels are turned to half a millimetre (EN 13262), their flanges neither grow nor wear between back and tip.
+  void judge_nominal(const Section& nominal, double nominal_tip) {
+    constexpr double kTurned = 0.5e-3;
+    if (const double off = off_unworn(nominal, nominal_tip); off > std::hypot(kTurned, s_.noise()))
+      doubt(
+          fmt::format("between its back and tip the flange lies {:.2f} mm or more off the nominal one (median): is it "
+                      "another wheel's?",
+                      1e3 * off));
+    judge_growth("tread wear", out_.tread_wear);
+  }
+
+  void judge_growth(const char* name, const Measure& wear) {
+    constexpr double kGrown = 1e-3;
+    if (!(wear.value < -(kGrown + std::fmax(0.0, wear.uncertainty)))) return;
+    doubt(
+        fmt::format("the {} is {:.2f} mm: metal would have grown by more than turning ({:g} mm) and its uncertainty "
+                    "explain: is the nominal section another wheel's?",
+                    name, 1e3 * wear.value, 1e3 * kGrown));
+  }
+
+  /// Median distance of the flange from back to tip from the nominal one, tips at one height [m]; 0: too little of it
+  /// is there.
+  double off_unworn(const Section& nominal, double nominal_tip) const {
+    constexpr double kStep = 0.25e-3, kBesideBack = 4e-3;  // the back's edge may be cut or worn by check rails
+    constexpr std::size_t kFewest = 12;
+    const double from = -g_.tape_line + kBesideBack, lift = tip_.p.y() - nominal_tip;
+    if (!out_.back_seen || tip_.node == 0) return 0.0;
+    const auto count = to_whole<std::size_t>(std::max(0.0, (tip_.p.x() - from) / kStep));
+    const std::vector<double> own = s_.z_over(from, kStep, count), wanted = nominal.z_over(from, kStep, count);
+    std::vector<double> sizes;
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+      const double slope = (wanted[i + 1] - wanted[i]) / kStep, off = own[i] - lift - wanted[i];
+      if (!std::isnan(off) && !std::isnan(slope)) sizes.push_back(std::fabs(off) / std::sqrt(1.0 + slope * slope));
+    }
+    return sizes.size() < kFewest ? 0.0 : median_of(sizes);
   }
 
   void areas(const Section& nominal, double nominal_tip) {
@@ -309,7 +353,7 @@ class WheelRuler {
         1.0 / std::cos(std::min(75.0 * kDegree, out_.flange_angle.known() ? out_.flange_angle.value : 0.0));
     const double error = 2.0 * hypotenuse(tape_.error, steep * hypotenuse(tape_.error, back_error_));
     // another profile than the first must save more than what is uncertain
-    const double same = std::max(1e-6, 0.5 * kTwoSided * error);
+    const double same = std::fmax(1e-6, 0.5 * kTwoSided * error);
     double least = std::numeric_limits<double>::infinity();
     const auto count = to_whole<std::size_t>(std::max(0.0, (to - from) / kStep));
     const std::vector<double> worn = s_.z_over(from, kStep, count);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "treadmark/analysis/measured/section.hpp"
 #include "treadmark/analysis/measures/section.hpp"
 
 namespace treadmark::measures {
@@ -41,6 +42,7 @@ struct WheelMeasures {
   double shift_y = 0.0;       ///< from the section's axes to those of the measures: y = 0 at the tape line [m]
   double shift_z = 0.0;       ///< z = 0 there
   bool back_seen = false;     ///< whether y counts from the flange back
+  std::vector<measured::Doubt> doubts;  ///< "nominal_profile": whether the nominal section is this wheel's
 };
 
 /// A nominal wheel section in its own axes: tape line at the origin, flange back at y = -70 mm.
@@ -51,7 +53,8 @@ struct NominalWheel {
 
 /// Measures a wheel. nominal_radius [m]: at z = 0 of the section's axes; 0: unknown. nominals: the first is what wear
 /// is counted against, each of them may be the aim of the re-profiling; empty: none. What the section does not hold is
-/// not measured, with the reason. Thread-safe. Errors: Error(input_data) for a section that does not look like a wheel
+/// not measured, with the reason. The nominal section is doubted where the flange's back and tip lie off it, or metal
+/// would have grown. Thread-safe. Errors: Error(input_data) for a section that does not look like a wheel
 /// (a rail, upside down, no flange), or that does not reach the tape line.
 WheelMeasures measure_wheel(const Section& section, const WheelGauge& gauge = {}, double nominal_radius = 0.0,
                             const std::vector<NominalWheel>& nominals = {});

@@ -19,7 +19,7 @@ namespace treadmark::app {
 
 const Profile* noisy_profile(const NaturalSurface& natural) {
   const auto* profile = std::get_if<Profile>(&natural.spec.shape);
-  return profile != nullptr && measured::is_smoothed(*profile) ? profile : nullptr;
+  return profile != nullptr && measured::has_errors(*profile) ? profile : nullptr;
 }
 
 namespace {
@@ -61,6 +61,9 @@ double NoiseOfResults::Known::error(std::size_t draw, std::span<const std::size_
 }
 
 std::string NoiseOfResults::Known::in_words(const std::string& name) const {
+  if (scatter && !scatter->between.empty())
+    return fmt::format("the {}'s points lie {:.2g} mm apart and do not tell where arcs between them meet", name,
+                       kMilli * scatter->step);
   if (scatter)
     return fmt::format("the {}'s points scatter by {:.2g} mm at steps of {:.2g} mm", name, kMilli * scatter->white,
                        kMilli * scatter->step);
@@ -133,7 +136,8 @@ void NoiseOfResults::add_errors(const io::WheelRailCase& input, const io::CaseRe
 }
 
 void NoiseOfResults::add(const io::WheelRailCase& input, io::CaseResult& result) const {
-  constexpr double kLarge = 0.025;  // so that hardly any error of 5 % is not doubted
+  constexpr double kLarge = 0.025;   // so that hardly any error of 5 % is not doubted
+  constexpr double kNothing = 1e-9;  // [m] a hundredth of what exact points may be off
   if (!any()) return;
   std::vector<io::PatchResult*> patches;
   std::vector<wheelrail::UncertainPatch> uncertain;
@@ -152,6 +156,12 @@ void NoiseOfResults::add(const io::WheelRailCase& input, io::CaseResult& result)
   }
   if (patches.empty()) return;
   add_errors(input, result, patches, uncertain);
+  const auto is_known = [](const wheelrail::UncertainPatch& patch) {
+    return ranges::all_of(patch.errors, [](const std::vector<double>& rows) {
+      return ranges::all_of(rows, [](double error) { return std::fabs(error) < kNothing; });
+    });
+  };
+  if (ranges::all_of(uncertain, is_known)) return;  // what lies between the points of a flange is nothing to a tread
   const std::vector<std::optional<wheelrail::ErrorSpread>> spread =
       wheelrail::error_spread(uncertain, input.material, input.vertical_force_prescribed);
   std::string why;

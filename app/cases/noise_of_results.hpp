@@ -18,7 +18,7 @@
 
 namespace treadmark::app {
 
-/// The profile that was smoothed by its noise; nullptr for other surfaces.
+/// The profile of which it is known what its curve may be off, by noise or between points; nullptr for other surfaces.
 const Profile* noisy_profile(const NaturalSurface& natural);
 
 /// What noise leaves uncertain of the surfaces of one pair. Immutable; safe from any thread.
@@ -26,11 +26,12 @@ class NoiseOfResults {
  public:
   NoiseOfResults(const NaturalSurface& rail, const NaturalSurface& wheel);
 
-  /// Whether a profile of the pair was smoothed by its noise, or one of its surfaces imported with its errors.
+  /// Whether a profile of the pair has errors, by noise or between points, or one of its surfaces was imported with
+  /// them.
   bool any() const { return rail_.known() || wheel_.known(); }
   /// Adds to each patch the uncertainty that noise leaves of its surfaces, and a remark where it is large: by solving
   /// the normal problem again for some of the errors that they may have, 16 of profiles and as many of surfaces, those
-  /// nearest along them. Patches without fields stay as they are.
+  /// nearest along them. Patches without fields, and those where nothing is uncertain, stay as they are.
   void add(const io::WheelRailCase& input, io::CaseResult& result) const;
   /// Of a body the errors that it may have, those nearest along a surface, as heights at places y of its section [m]: z
   /// of a rail, radius of a wheel. Each as probable as the others; none where nothing is known of it. The result has

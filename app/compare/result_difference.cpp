@@ -14,11 +14,11 @@ namespace treadmark::app {
 
 namespace {
 
-/// How well a case knows a number, in the unit of its name; 0: it does not.
+/// How well a case knows a number, in the unit of its name; 0: it does not say; NaN: nobody knows.
 double deviation_of(const io::CaseResult& result, const std::string& number) {
   if (!result.uncertainty) return 0.0;
   for (const io::CaseUncertainty::Number& one : result.uncertainty->numbers)
-    if (one.name == number) return one.sigma > 0.0 ? one.sigma : 0.0;
+    if (one.name == number) return one.sigma;
   return 0.0;
 }
 

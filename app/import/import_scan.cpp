@@ -161,7 +161,7 @@ std::optional<scans::MeasuredSections> sections_to_keep(const PlacedScan& scan, 
 std::optional<double> smooth_sections(SliceSet& slices) {
   parallel_for(slices.profiles.size(), [&](std::size_t k) {
     Profile smooth = measured::smoothed_by_noise(slices.profiles[k]);
-    if (measured::is_smoothed(smooth)) slices.profiles[k] = std::move(smooth);
+    if (measured::has_errors(smooth)) slices.profiles[k] = std::move(smooth);
   });
   double squares = 0.0;
   for (const Profile& profile : slices.profiles)
@@ -170,8 +170,8 @@ std::optional<double> smooth_sections(SliceSet& slices) {
   return std::sqrt(squares / static_cast<double>(slices.profiles.size()));
 }
 
-/// What noise leaves uncertain of smoothed sections, in the mean over those that a contact patch near a station
-/// touches.
+/// What noise, or the distance of exact points, leaves uncertain of sections, in the mean over those that a contact
+/// patch near a station touches.
 std::optional<SurfaceErrors> errors_of_sections(const SliceSet& slices, const scans::FittedBand& fitted,
                                                 const std::vector<double>& stations) {
   constexpr double kPlaces = 0.5e-3, kHalfPatch = 6e-3;  // across, along [m]
@@ -204,7 +204,7 @@ std::optional<SurfaceErrors> errors_of_sections(const SliceSet& slices, const sc
     bool known = false;
     for (const auto& [k, share] : parts) {
       const Profile& profile = slices.profiles[k];
-      if (!measured::is_smoothed(profile)) continue;
+      if (!measured::has_errors(profile)) continue;
       known = true;
       const measured::ErrorDraws draws(profile);
       for (std::size_t i = 0; i < draw.size(); ++i)
@@ -422,7 +422,8 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
                                      scan.placement.nominal_radius, settings.fit.sections_along == "approximate",
                                      scan.body == Body::wheel ? "measured wheel" : "measured rail");
     if (settings.fit.smoothing == "auto") report.sections->smoothed = smooth_sections(*kept);
-    if (settings.fit.errors && report.sections->smoothed) known_errors = errors_of_sections(*kept, fitted, stations);
+    if (settings.fit.errors && settings.fit.smoothing == "auto")
+      known_errors = errors_of_sections(*kept, fitted, stations);
   }
   std::shared_ptr<const SurfaceErrors> errors;
   if (known_errors) {

@@ -91,7 +91,7 @@ std::vector<LimitResult> against_limits(const Numbers& numbers, const std::vecto
         // what a computer makes of two decimals is no wear
         constexpr double kRounding = 1e-9;
         result.verdict = room < -kRounding * (1.0 + std::fabs(result.value)) ? Verdict::outside : Verdict::within;
-        result.sure = !(std::fabs(room) <= result.uncertainty);
+        result.sure = std::fabs(room) > result.uncertainty;
       }
       results.push_back(std::move(result));
     }
@@ -103,6 +103,11 @@ std::vector<LimitResult> against_limits(const Numbers& numbers, const std::vecto
 std::string word_of(Verdict verdict) {
   constexpr const char* kWords[] = {"no limits", "within", "not measured", "outside"};
   return kWords[static_cast<std::size_t>(verdict)];
+}
+
+std::string how_sure(const LimitResult& result) {
+  if (result.sure) return {};
+  return std::isnan(result.uncertainty) ? ", its uncertainty is not known" : ", nearer than its uncertainty";
 }
 
 Limits read_limits(const std::filesystem::path& file) {

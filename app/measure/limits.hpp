@@ -40,8 +40,11 @@ struct LimitResult {
   Limit limit;
   double value = measures::kUnknown, uncertainty = measures::kUnknown;  ///< in the unit of the key
   Verdict verdict = Verdict::not_measured;
-  bool sure = false;  ///< the limit is farther away than the uncertainty
+  bool sure = false;  ///< the limit is farther away than the uncertainty, which is known
 };
+/// Behind the verdict of a number: ", nearer than its uncertainty", ", its uncertainty is not known"; empty where it is
+/// sure.
+std::string how_sure(const LimitResult& result);
 
 /// All limits against the numbers.
 std::vector<LimitResult> compare_limits(const std::variant<WheelNumbers, RailNumbers>& numbers, const Limits& limits);

@@ -13,6 +13,7 @@
 
 #include "treadmark/analysis/measures/bands.hpp"
 #include "treadmark/app/measure/read_measured.hpp"
+#include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/core/cancellation.hpp"
@@ -23,6 +24,7 @@
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/files/text.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark::app {
@@ -69,6 +71,14 @@ Measure median_of(std::vector<Measure> all) {
   return *middle;
 }
 
+/// The doubts that most stations have, as one of them says them.
+template <class Numbers>
+std::vector<measured::Doubt> doubts_of_most(const std::vector<MeasuredStation<Numbers>>& stations) {
+  const auto doubted = [](const auto& station) { return !station.numbers.doubts.empty(); };
+  if (2 * ranges::count_if(stations, doubted) <= static_cast<std::ptrdiff_t>(stations.size())) return {};
+  return ranges::find_if(stations, doubted)->numbers.doubts;
+}
+
 template <class Numbers>
 Numbers median_numbers(const std::vector<MeasuredStation<Numbers>>& stations) {
   Numbers out = stations[stations.size() / 2].numbers;
@@ -78,13 +88,14 @@ Numbers median_numbers(const std::vector<MeasuredStation<Numbers>>& stations) {
     for (const auto& station : stations) all.push_back(station.numbers.*row.at);
     out.*row.at = median_of(std::move(all));
   }
+  out.doubts = doubts_of_most(stations);
   return out;
 }
 
 Section section_of(const ReadMeasured& read, const Profile& points) {
-  if (read.error < 0.0) return Section(points, read.kind == "library profile" ? 0.0 : -1.0);
-  Section section(points, 0.0);
-  section.claim_error(read.error);
+  if (!read.error) return Section(points, read.kind == "library profile" ? 0.0 : -1.0);
+  Section section(points, std::isnan(*read.error) ? -1.0 : 0.0);
+  section.claim_error(*read.error);
   return section;
 }
 
@@ -96,6 +107,35 @@ constexpr double kHalfBand = 1e-3;       // about lines round a wheel and along 
 double scatter_of_points(const ReadMeasured& read, double step) {
   const double area = 2.0 * kHalfBand * step;
   return area > 0.0 ? read.point_noise * std::min(1.0, read.point_distance / std::sqrt(area)) : 0.0;
+}
+
+FittingStandard against_nominal(const WheelNumbers& n) { return {"", n.area_lost.value, n.area_gained.value}; }
+FittingStandard against_nominal(const RailNumbers& n) { return {"", n.loss.value, n.lip.value}; }
+
+/// Doubts about the nominal section, with the standard profile that fits better; and one where the section is another
+/// standard profile as new.
+template <class Numbers>
+void tell_doubts(const Section& section, const Numbers& numbers, const std::string& nominal, MeasuredFile& out) {
+  constexpr double kAsNew = 15e-6, kWorn = 3.0, kBetter = 0.5;  // [m^2]; of what another one leaves
+  if (nominal.empty()) return;
+  std::vector<std::string> doubts;
+  for (const measured::Doubt& doubt : numbers.doubts) doubts.push_back(fmt::format("{}: {}", doubt.name, doubt.text));
+  const FittingStandard own = against_nominal(numbers);
+  const bool doubted = !doubts.empty(), worn = own.lost + own.gained > kWorn * kAsNew;
+  if (!doubted && !worn) return;
+  const auto fits = fitting_standard(section, !doubted);
+  const auto areas = [](const FittingStandard& one) {
+    return fmt::format("{:.3g} mm2 lost, {:.3g} mm2 beyond", 1e6 * one.lost, 1e6 * one.gained);
+  };
+  if (fits && doubted && !(fits->badness() > kBetter * own.badness()))
+    doubts.back() += fmt::format("; laid upon it by what does not wear {} fits better: {}", fits->name, areas(*fits));
+  if (fits && !doubted && fits->lost + fits->gained < kAsNew)
+    doubts.push_back(
+        fmt::format("nominal_profile: the section is {} as new ({}), against {} it would have {}: is it "
+                    "worn, or another {}?",
+                    fits->name, areas(*fits), nominal, areas(own), body_name(section.body())));
+  for (const std::string& doubt : doubts) out.notes.push_back("warning: " + doubt);
+  out.doubtful = out.doubtful || !doubts.empty();
 }
 
 // --- wheels
@@ -112,6 +152,7 @@ class WheelFile {
       out_.noise = section.noise();
       numbers_ = section_numbers(section);
       draw(section, numbers_);
+      tell_doubts(section, numbers_, request_.nominal, out_);
       for (Measure* m : {&numbers_.runout, &numbers_.axial_runout, &numbers_.eccentricity, &numbers_.flat_depth,
                          &numbers_.flat_length})
         m->reason = one;
@@ -180,6 +221,7 @@ class WheelFile {
   void stations() {
     const int count = read_.surface->constant_profile() ? 1 : request_.stations;
     std::optional<Error> trouble;
+    std::optional<Section> middle;
     for (int i = 0; i < count; ++i) {
       const double theta = -std::numbers::pi + kFullCircle * (i + 0.5) / count;
       try {
@@ -187,7 +229,10 @@ class WheelFile {
                                                         count == 1 ? 0.0 : theta, kSectionStep);
         const Section section = section_of(read_, points);
         out_.round.push_back({count == 1 ? 0.0 : theta, section_numbers(section)});
-        if (out_.section.empty() && 2 * i + 1 >= count) draw(section, out_.round.back().numbers);
+        if (out_.section.empty() && 2 * i + 1 >= count) {
+          draw(section, out_.round.back().numbers);
+          middle = section;
+        }
       } catch (const Error& error) {
         trouble = error;
       }
@@ -196,6 +241,7 @@ class WheelFile {
     if (const std::size_t lost = static_cast<std::size_t>(count) - out_.round.size(); lost > 0)
       out_.notes.push_back(fmt::format("{} of {} sections could not be measured: {}", lost, count, trouble->message()));
     numbers_ = median_numbers(out_.round);
+    if (middle) tell_doubts(*middle, numbers_, request_.nominal, out_);
   }
 
   measures::RoundGauge gauge(std::size_t samples) const {
@@ -242,7 +288,7 @@ class WheelFile {
       return;
     }
     const measures::RoundMeasures& round = *out_.revolution;
-    const double error = read_.error > 0.0 ? 1.96 * read_.error : 0.0;
+    const double error = 1.96 * read_.error.value_or(0.0);
     numbers_.runout = round.runout;
     numbers_.runout.uncertainty = std::hypot(numbers_.runout.uncertainty, std::numbers::sqrt2 * error);
     numbers_.eccentricity = round.eccentricity;
@@ -300,7 +346,8 @@ class WheelFile {
     for (std::vector<measures::RoundFlat>& place : places) {
       ranges::sort(place, std::greater<>(), [](const measures::RoundFlat& f) { return f.depth.value; });
       const measures::RoundFlat &deepest = place.front(), &middle = place[place.size() / 2];
-      const bool alike = deepest.depth.value - middle.depth.value < std::hypot(deepest.depth.uncertainty, error);
+      const bool alike = deepest.depth.value - middle.depth.value <
+                         std::hypot(deepest.depth.uncertainty, std::isnan(error) ? 0.0 : error);
       all.push_back(alike ? middle : deepest);
     }
     for (measures::RoundFlat& flat : all) {
@@ -344,6 +391,7 @@ class RailFile {
       out_.noise = section.noise();
       numbers_ = section_numbers(section);
       draw(section, numbers_);
+      tell_doubts(section, numbers_, request_.nominal, out_);
       numbers_.roughness_exceedance.reason = "needs a scan along the rail";
       judge_sides();
       out_.numbers = numbers_;
@@ -398,13 +446,17 @@ class RailFile {
     const bool one = read_.surface->constant_profile();
     const int count = one ? 1 : request_.stations;
     std::optional<Error> trouble;
+    std::optional<Section> middle;
     for (int i = 0; i < count; ++i) {
       const double x = one ? 0.0 : read_.x_min + (read_.x_max - read_.x_min) * (i + 0.5) / count;
       try {
         const Profile points = measures::section_points(*read_.surface, Body::rail, 0.0, x, kSectionStep);
         const Section section = section_of(read_, points);
         out_.along.push_back({x, section_numbers(section)});
-        if (out_.section.empty() && 2 * i + 1 >= count) draw(section, out_.along.back().numbers);
+        if (out_.section.empty() && 2 * i + 1 >= count) {
+          draw(section, out_.along.back().numbers);
+          middle = section;
+        }
       } catch (const Error& error) {
         trouble = error;
       }
@@ -413,6 +465,7 @@ class RailFile {
     if (const std::size_t lost = static_cast<std::size_t>(count) - out_.along.size(); lost > 0)
       out_.notes.push_back(fmt::format("{} of {} sections could not be measured: {}", lost, count, trouble->message()));
     numbers_ = median_numbers(out_.along);
+    if (middle) tell_doubts(*middle, numbers_, request_.nominal, out_);
   }
 
   void roughness() {
@@ -433,7 +486,7 @@ class RailFile {
     read_.surface->heights_at(natural_plane(Body::rail, 0.0), line, heights);
     for (double& h : z) h = -h;
     measures::RoughnessGauge gauge;
-    gauge.noise = std::max({0.0, read_.error, scatter_of_points(read_, request_.line_step)});
+    gauge.noise = std::max(scatter_of_points(read_, request_.line_step), read_.error.value_or(0.0));
     try {
       out_.roughness = measures::measure_roughness(z, request_.line_step, gauge, request_.limits.roughness);
     } catch (const Error& error) {
@@ -605,8 +658,19 @@ std::vector<ListColumn> columns_of(const std::vector<Limit>& limits) {
   return out;
 }
 
+std::string words_of_doubts(const MeasuredFile& file) {
+  constexpr std::string_view kWarning = "warning: ";
+  std::string out;
+  for (const std::string& note : file.notes)
+    if (note.starts_with(kWarning)) out += (out.empty() ? "" : "; ") + note.substr(kWarning.size());
+  return out;
+}
+
 ListRow row_of(const MeasuredFile& file) {
-  ListRow row{file.file, file.error.empty() ? word_of(file.verdict()) : "failed", file.error, {file.kind}};
+  ListRow row{file.file,
+              file.error.empty() ? word_of(file.verdict()) : "failed",
+              file.error,
+              {file.kind, words_of_doubts(file)}};
   if (file.error.empty()) {
     row.badness = file.badness();
     std::visit(
@@ -626,7 +690,7 @@ ResultList list_for(const MeasureRequest& request) {
   list.title = request.body == Body::wheel ? "Measures of wheels" : "Measures of rails";
   list.things = "files";
   list.settings = settings_of(request);
-  list.words = {"kind"};
+  list.words = {"kind", "doubts"};
   list.numbers = request.body == Body::wheel ? columns_of<WheelNumbers>(request.limits.wheel)
                                              : columns_of<RailNumbers>(request.limits.rail);
   return list;

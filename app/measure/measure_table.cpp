@@ -32,8 +32,7 @@ std::string numbers_table(const MeasuredFile& file, const Numbers& numbers) {
     const double uncertainty = row.uncertainty_in_file(numbers);
     text += std::isnan(uncertainty) ? std::string(12, ' ') : fmt::format(" +- {:<8.2g}", uncertainty);
     if (limit != file.limits.end())
-      text += fmt::format(" {:<14}{}{}", range_shown(limit->limit), word_of(limit->verdict),
-                          limit->sure ? "" : ", nearer than its uncertainty");
+      text += fmt::format(" {:<14}{}{}", range_shown(limit->limit), word_of(limit->verdict), how_sure(*limit));
     while (text.back() == ' ') text.pop_back();
     text += '\n';
   }

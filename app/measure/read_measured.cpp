@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/analysis/measured/smoothing.hpp"
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
@@ -67,6 +68,31 @@ ReadMeasured read_points(const std::string& name, const MeasureRequest& request)
   return out;
 }
 
+/// Standard deviation of a surface [m]; NaN where nothing tells it; nothing of exact shapes.
+std::optional<double> known_error(const SurfaceSpec& spec) {
+  const auto mean_square = [](const std::vector<double>& values) {
+    double sum = 0.0;
+    for (const double v : values) sum += v * v / static_cast<double>(values.size());
+    return sum;
+  };
+  if (spec.errors) {
+    double squares = std::pow(size_of(*spec.errors).rms, 2);
+    for (const SurfaceErrors::Motion& motion : spec.errors->motions) squares += motion.z * motion.z;
+    for (const SurfaceErrors::Field& field : spec.errors->fields)
+      for (const std::vector<double>& sigma : field.sigma)
+        squares += mean_square(sigma) / static_cast<double>(field.sigma.size());
+    return std::sqrt(squares);
+  }
+  if (const auto* points = std::get_if<Profile>(&spec.shape); points != nullptr && points->scatter) {
+    if (!measured::is_smoothed(*points)) return std::nullopt;
+    return std::sqrt(mean_square(measured::deviations(*points->scatter)));
+  }
+  const bool exact = std::holds_alternative<StandardProfile>(spec.shape) ||
+                     std::holds_alternative<ArcChain>(spec.shape) || std::holds_alternative<SolidShape>(spec.shape) ||
+                     std::holds_alternative<SplineSurface>(spec.shape);
+  return exact ? std::nullopt : std::optional(measures::kUnknown);
+}
+
 ReadMeasured read_any_surface(const std::string& name, const MeasureRequest& request) {
   NamedSurface said;
   said.body = request.body;
@@ -83,12 +109,10 @@ ReadMeasured read_any_surface(const std::string& name, const MeasureRequest& req
   out.x_min = box.min.x(), out.x_max = box.max.x();
   if (const auto known = measured_range(natural, {}); known && request.body == Body::rail)
     out.x_min = known->first, out.x_max = known->second;
-  if (const auto& errors = natural.spec.errors) {
-    double squares = std::pow(size_of(*errors).rms, 2);
-    for (const SurfaceErrors::Motion& motion : errors->motions) squares += motion.z * motion.z;
-    out.error = std::sqrt(squares);
-  }
+  out.error = known_error(natural.spec);
   if (!natural.note.empty()) out.notes.push_back(natural.note);
+  if (out.error && std::isnan(*out.error))
+    out.notes.emplace_back("how well this surface is known nothing says: its numbers have no uncertainty");
   const auto warn = [&](const std::string& doubt) {
     out.notes.push_back("warning: " + doubt);
     out.doubtful = true;
@@ -149,6 +173,7 @@ measures::Section mirrored_section(const std::string& name, const MeasureRequest
   options.scale = request.scale_to_mm;
   options.mirror_y = 1;
   options.placement = io::ProfileOptions::Placement::as_in_file;
+  options.smoothing = {};  // sections do that, and know what it leaves
   return measures::Section(io::read_profile(name, Body::wheel, options));
 }
 

@@ -22,7 +22,7 @@ struct ReadMeasured {
   bool placed = false;                ///< it lies in the axes of its nominal section
   std::optional<double> flange_back;  ///< y in the points of a wheel, where they show it [m]
   bool doubtful = false;              ///< among the notes are doubts about what the points mean
-  double error = -1.0;                ///< of a fitted surface [m]; negative: its points tell
+  std::optional<double> error;        ///< of a fitted surface [m]; NaN: unknown; nothing: its points tell
   double point_noise = 0.0;           ///< of a scan's points [m]
   double point_distance = 0.0;        ///< between them [m]
   double x_min = 0.0, x_max = 0.0;    ///< of a rail's surface [m]

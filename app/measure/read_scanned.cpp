@@ -60,7 +60,7 @@ ReadMeasured read_scanned(const std::string& name, const MeasureRequest& request
   out.notes = report.warnings;
   out.said.emplace_back("points", fmt::format("{}", report.points_used));
   out.said.emplace_back("noise of the points", fmt::format("{:.4g} mm", 1e3 * report.noise));
-  out.said.emplace_back("error of the fit", fmt::format("{:.4g} mm", 1e3 * out.error));
+  out.said.emplace_back("error of the fit", fmt::format("{:.4g} mm", 1e3 * *out.error));
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "treadmark/analysis/measures/section.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/profiles/judge_profile.hpp"
@@ -38,6 +39,18 @@ std::string profile_check_json(const CheckedProfile& profile);
 
 /// What is doubtful about a profile by itself, wherever it is to be placed. Never throws; thread-safe.
 std::vector<io::ProfileRemark> doubts_of(const io::SourcedProfile& profile);
+
+/// A standard profile beside a section: metal that is missing, and metal that should not be there [m^2].
+struct FittingStandard {
+  std::string name;
+  double lost = 0.0, gained = 0.0;
+  /// What no wear explains counts more.
+  double badness() const { return lost + 20.0 * gained; }
+};
+
+/// The standard profile that a section fits best, laid upon it by what does not wear; as_new: only those that have its
+/// head's width and crown, which is quick. Nothing where none can be laid upon it. Thread-safe.
+std::optional<FittingStandard> fitting_standard(const measures::Section& section, bool as_new);
 
 /// What a file of a profile is by its shape, where neither its name nor the library says so; nothing for files that
 /// cannot be read so, and for all others.

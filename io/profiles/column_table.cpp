@@ -33,7 +33,12 @@ constexpr KnownColumn kKnownColumns[] = {
     {"ycoord", 'y'},   {"ycoordinate", 'y'}, {"ypos", 'y'},          {"lateral", 'y'},  {"z", 'z'},
     {"zcoord", 'z'},   {"zcoordinate", 'z'}, {"zpos", 'z'},          {"vertical", 'z'}, {"height", 'z'},
     {"r", 'r'},        {"radius", 'r'},      {"rollingradius", 'r'}, {"rayon", 'r'},    {"d", 'd'},
-    {"diameter", 'd'}, {"durchmesser", 'd'}, {"diametre", 'd'}};
+    {"diameter", 'd'}, {"durchmesser", 'd'}, {"diametre", 'd'},      {"quer", 'y'},     {"hoehe", 'z'},
+    {"hhe", 'z'}};  // without its umlaut
+
+/// Words that make no coordinate of a name: "z deviation".
+constexpr std::string_view kDifferences[] = {"deviation", "deviations", "dev",   "diff", "difference", "delta",
+                                             "error",     "wear",       "sigma", "std",  "uncertainty"};
 
 /// An empty field is one only where something separates; blanks in a row separate nothing.
 bool has_mark(std::string_view word, char separator) { return !word.empty() || separator != ' '; }
@@ -45,6 +50,86 @@ char axis_of(std::string_view name) {
     if (known.name == plain) return known.axis;
   return '\0';
 }
+
+/// A coordinate, and which of several it is: "" of "y", "left" of "z left", "1" of "y1", "l" of "yL".
+struct CoordinateName {
+  char axis = '\0';
+  std::string of;
+};
+
+CoordinateName coordinate_named(std::string_view name) {
+  if (const char axis = axis_of(name)) return {axis, {}};
+  const std::string text = lower(name);
+  const auto in_word = [&](std::size_t at) {
+    const char c = text[at];
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || static_cast<unsigned char>(c) >= 0x80;
+  };
+  CoordinateName out;
+  const auto add = [&out](std::string_view word) { out.of.append(out.of.empty() ? "" : " ").append(word); };
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t start = at;
+    while (at < text.size() && in_word(at)) ++at;
+    if (at == start) {
+      ++at;
+      continue;
+    }
+    std::string_view word = std::string_view(text).substr(start, at - start), rest;
+    if (ranges::find(kDifferences, word) != std::end(kDifferences)) return {};
+    char axis = word == "r" || word == "d" ? '\0' : axis_of(word);
+    const bool short_name = axis == '\0' && word[0] >= 'x' && word[0] <= 'z';
+    if (short_name) rest = word.substr(1);
+    if (short_name && (rest == "l" || rest == "r" || rest.find_first_not_of("0123456789") == std::string_view::npos))
+      axis = word[0];
+    if (axis == '\0') add(word);
+    if (axis == '\0') continue;
+    if (out.axis != '\0' && out.axis != axis) return {};
+    out.axis = axis;
+    if (!rest.empty()) add(rest);
+  }
+  return out.axis == '\0' ? CoordinateName{} : out;
+}
+
+/// The columns of one thing's coordinates.
+struct Coordinates {
+  int x = -1, y = -1, z = -1, r = -1, d = -1;
+
+  int* of(char axis) {
+    switch (axis) {
+      case 'x':
+        return &x;
+      case 'y':
+        return &y;
+      case 'z':
+        return &z;
+      case 'r':
+        return &r;
+      case 'd':
+        return &d;
+      default:
+        return nullptr;
+    }
+  }
+  /// With those that it has not of another one's.
+  Coordinates with(const Coordinates& common) const {
+    const auto one = [](int own, int other) { return own >= 0 ? own : other; };
+    return {one(x, common.x), one(y, common.y), one(z, common.z), one(r, common.r), one(d, common.d)};
+  }
+  /// y and z of a profile; nothing where there are not two coordinates.
+  std::optional<ColumnRoles> roles() const {
+    Coordinates c = *this;
+    ColumnRoles out;
+    if (z < 0 && (x >= 0) != (y >= 0) && (r >= 0 || d >= 0)) {
+      out.radius_factor = r >= 0 ? 1.0 : 0.5;
+      c.z = r >= 0 ? r : d;
+    }
+    if ((c.x >= 0) + (c.y >= 0) + (c.z >= 0) < 2) return std::nullopt;
+    // a section along x is written as x and y, or as x and z
+    out.y = c.y >= 0 && c.z >= 0 ? c.y : c.x;
+    out.z = c.z >= 0 ? c.z : c.y;
+    out.named = true;
+    return out;
+  }
+};
 
 }  // namespace
 
@@ -66,51 +151,76 @@ std::string plain_line(std::string_view line) {
   return plain;
 }
 
-std::optional<ColumnRoles> roles_of(const std::vector<std::string>& names, const TextLine& line) {
-  int x = -1, y = -1, z = -1, r = -1, d = -1;
-  ColumnRoles roles;
-  points::UnitFinder unit;
+std::vector<ColumnRoles> profiles_of(const std::vector<std::string>& names, const TextLine& line) {
+  std::vector<std::pair<std::string, Coordinates>> things(1);  // the first: of what has no name of its own
+  std::vector<std::optional<LengthUnit>> units;
   std::optional<std::string> twice;
   for (std::size_t k = 0; k < names.size(); ++k) {
     std::string_view name = names[k];
-    const std::optional<LengthUnit> own_unit = points::take_unit(name);
-    const char axis = axis_of(name);
-    int* const target = axis == 'x'   ? &x
-                        : axis == 'y' ? &y
-                        : axis == 'z' ? &z
-                        : axis == 'r' ? &r
-                        : axis == 'd' ? &d
-                                      : nullptr;
-    if (target == nullptr) continue;
+    units.push_back(points::take_unit(name));
+    const CoordinateName found = coordinate_named(name);
+    if (found.axis == '\0') continue;
+    auto thing = ranges::find(things, found.of, &std::pair<std::string, Coordinates>::first);
+    if (thing == things.end()) thing = things.emplace(things.end(), found.of, Coordinates{});
+    int* const target = thing->second.of(found.axis);
     if (*target >= 0) twice = name;
     *target = static_cast<int>(k);
-    unit.add(own_unit);
   }
-  if (z < 0 && (x >= 0) != (y >= 0) && (r >= 0 || d >= 0)) {
-    roles.radius_factor = r >= 0 ? 1.0 : 0.5;
-    z = r >= 0 ? r : d;
-  }
-  if ((x >= 0) + (y >= 0) + (z >= 0) < 2) return std::nullopt;
+  const Coordinates& common = things.front().second;
+  std::vector<ColumnRoles> out;
+  if (const auto roles = common.roles()) out.push_back(*roles);
+  const bool shares = out.empty();
+  for (std::size_t k = 1; k < things.size(); ++k)
+    if (const auto roles = (shares ? things[k].second.with(common) : things[k].second).roles()) out.push_back(*roles);
+  if (out.empty()) return out;
   if (twice) line.fail("the column " + printable(*twice) + " is named twice", 1, "name the columns y and z once");
-  if (unit.differ()) line.fail("the columns of coordinates have different units", 1, "write them in the same unit");
-  // a section along x is written as x and y, or as x and z
-  roles.y = y >= 0 && z >= 0 ? y : x;
-  roles.z = z >= 0 ? z : y;
-  roles.named = true;
-  roles.unit = unit.unit();
-  for (std::size_t k = 0; k < names.size(); ++k)
-    if (static_cast<int>(k) != roles.y && static_cast<int>(k) != roles.z)
-      roles.in_words += (roles.in_words.empty() ? "" : ", ") + names[k];
-  return roles;
+  for (ColumnRoles& roles : out) {
+    points::UnitFinder unit;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const bool own = static_cast<int>(k) == roles.y || static_cast<int>(k) == roles.z;
+      std::string& words = own ? roles.own_words : roles.in_words;
+      words += (words.empty() ? "" : ", ") + names[k];
+      if (!own) continue;
+      unit.add(units[k]);
+      if (!units[k] && !roles.unknown_unit) roles.unknown_unit = points::unknown_unit_of_name(names[k]);
+    }
+    if (unit.differ()) line.fail("the columns of coordinates have different units", 1, "write them in the same unit");
+    roles.unit = unit.unit();
+  }
+  return out;
 }
 
-std::optional<ColumnRoles> roles_in(const TextLine& line, std::string_view text, char separator, std::size_t columns) {
+std::size_t coordinates_among(const std::vector<std::string>& names) {
+  return static_cast<std::size_t>(ranges::count_if(names, [](std::string_view name) {
+    points::take_unit(name);
+    return axis_of(name) != '\0';
+  }));
+}
+
+std::vector<std::string> names_for(std::string_view text, char separator, std::size_t columns) {
   std::string unquoted(text);
   std::erase(unquoted, '"');
+  std::vector<std::string> names = points::names_in(unquoted, separator);
+  if (names.size() != columns) names.clear();
+  return names;
+}
+
+std::optional<ColumnRoles> roles_in(const TextLine& line, std::string_view text, char separator, std::size_t columns,
+                                    int profile) {
   for (const char s : {separator, ',', ';', '\t', ' '}) {
-    const std::vector<std::string> names = points::names_in(unquoted, s);
-    if (names.size() != columns) continue;
-    if (std::optional<ColumnRoles> roles = roles_of(names, line)) return roles;
+    const std::vector<std::string> names = names_for(text, s, columns);
+    const std::vector<ColumnRoles> found = names.empty() ? std::vector<ColumnRoles>{} : profiles_of(names, line);
+    if (found.empty()) continue;
+    std::string all;
+    for (std::size_t k = 0; k < found.size(); ++k)
+      all += fmt::format("{}{} ({})", k > 0 ? ", " : "", k + 1, found[k].own_words);
+    if (static_cast<std::size_t>(profile) > found.size())
+      line.fail(fmt::format("there is no profile {} in the file, there are {}", profile, all), 1, "name one of them");
+    if (profile == 0 && found.size() > 1)
+      line.fail("the columns hold several profiles: " + all, 1,
+                fmt::format("put its number behind the name: '{}#1' to '#{}', or keep one in a file",
+                            std::string_view(line.file()).substr(line.file().find_last_of('/') + 1), found.size()));
+    return found[static_cast<std::size_t>(std::max(profile, 1)) - 1];
   }
   return std::nullopt;
 }
@@ -265,6 +375,46 @@ ColumnRoles ColumnTable::assume_roles(const points::FieldStyle& style, std::vect
   if (more) counts("name the columns in a line before them, for example: n y z; or leave it out");
   if (rows_.size() > kWidest) counts("write y and z in each line");
   return {};
+}
+
+ColumnTable::Others ColumnTable::others(const ColumnRoles& roles, const points::FieldStyle& style) const {
+  constexpr std::size_t kMostRows = 2000, kFewest = 10;
+  constexpr double kAlike = 0.9, kTimes = 2.0;  // correlation; ranges of columns
+  const std::size_t count = columns(style.separator), step = 1 + rows_.size() / kMostRows;
+  std::vector<std::vector<double>> values(count);  // NaN: no number
+  for (std::size_t k = 0; k < rows_.size(); k += step) {
+    points::FieldScanner fields(rows_[k].text, style.separator);
+    points::Field field;
+    for (std::vector<double>& column : values) {
+      double value = 0.0;
+      const bool is_number = fields.next(field) && points::parse_number(field.text, style.decimal_comma, value);
+      column.push_back(is_number && std::isfinite(value) ? value : std::nan(""));
+    }
+  }
+  Others out;
+  const auto z = static_cast<std::size_t>(roles.z);
+  for (std::size_t c = 0; c < count; ++c) {
+    // before y a column counts the lines
+    if (static_cast<int>(c) <= roles.y || static_cast<int>(c) == roles.z || z >= count) continue;
+    double n = 0.0, a = 0.0, b = 0.0, aa = 0.0, ab = 0.0, bb = 0.0, apart = 0.0;
+    double low_a = INFINITY, high_a = -INFINITY, low_b = INFINITY, high_b = -INFINITY;
+    for (std::size_t k = 0; k < values[c].size(); ++k) {
+      const double own = values[c][k], other = values[z][k];
+      if (std::isnan(own) || std::isnan(other)) continue;
+      n += 1.0, a += own, b += other, aa += own * own, ab += own * other, bb += other * other;
+      low_a = std::min(low_a, own), high_a = std::max(high_a, own);
+      low_b = std::min(low_b, other), high_b = std::max(high_b, other);
+      apart = std::max(apart, std::fabs(own - other));
+    }
+    const double range_a = high_a - low_a, range_b = high_b - low_b;
+    if (!(range_a > 0.0)) continue;
+    out.varying.push_back(static_cast<int>(c));
+    const double alike = (n * ab - a * b) / std::sqrt((n * aa - a * a) * (n * bb - b * b));
+    if (n >= static_cast<double>(kFewest) && std::fabs(alike) > kAlike && range_a < kTimes * range_b &&
+        range_b < kTimes * range_a && apart > 0.0 && !out.like_z)
+      out.like_z = static_cast<int>(c);
+  }
+  return out;
 }
 
 }  // namespace treadmark::io::profiles

@@ -36,15 +36,26 @@ struct ColumnRoles {
   bool named = false;
   double radius_factor = 0.0;  ///< z holds radii (1) or diameters (0.5); 0: heights
   std::optional<LengthUnit> unit;
-  std::string in_words;  ///< of those that are not used
+  std::optional<points::UnknownUnit> unknown_unit;
+  std::string own_words;  ///< "yL, zL"
+  std::string in_words;   ///< of those that are not used
 };
 
-/// The roles of names such as "y", "z [mm]", "x". Nothing where two coordinates are not among them.
-/// Error(input_data) for one that is named twice, or for different units.
-std::optional<ColumnRoles> roles_of(const std::vector<std::string>& names, const TextLine& line);
+/// The profiles of names such as "y", "z [mm]", "x": one, or several side by side as in "yL, zL, yR, zR" or "y, z left,
+/// z right", in the order of the names. None where two coordinates of one thing are not among them.
+/// Error(input_data) for a coordinate that is named twice, or for different units.
+std::vector<ColumnRoles> profiles_of(const std::vector<std::string>& names, const TextLine& line);
 
-/// The names in a line of words or in a comment that has `columns` of them.
-std::optional<ColumnRoles> roles_in(const TextLine& line, std::string_view text, char separator, std::size_t columns);
+/// How many of these names are those of a coordinate and nothing else.
+std::size_t coordinates_among(const std::vector<std::string>& names);
+
+/// The names in a line of words or in a comment that has `columns` of them; empty: there are fewer or more.
+std::vector<std::string> names_for(std::string_view text, char separator, std::size_t columns);
+
+/// Of those names the profile with this number (from 1); 0: the only one. Error(input_data) where there are several, or
+/// none of this number.
+std::optional<ColumnRoles> roles_in(const TextLine& line, std::string_view text, char separator, std::size_t columns,
+                                    int profile);
 
 /// Lines of numbers that belong to one profile.
 class ColumnTable {
@@ -75,6 +86,13 @@ class ColumnTable {
 
   /// Columns without names: y and z unless the first one counts the lines. Error(input_data) where it seems to.
   ColumnRoles assume_roles(const points::FieldStyle& style, std::vector<std::string>& notes) const;
+
+  /// What else than y and z is there, by its numbers.
+  struct Others {
+    std::vector<int> varying;   ///< columns whose numbers are not all the same
+    std::optional<int> like_z;  ///< one of them that runs as z does, as that of another profile
+  };
+  Others others(const ColumnRoles& roles, const points::FieldStyle& style) const;
 
  private:
   struct Row {

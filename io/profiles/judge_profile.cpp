@@ -14,6 +14,7 @@
 #include "treadmark/io/profiles/faults.hpp"
 #include "treadmark/model/rail_head.hpp"
 #include "treadmark/model/shape/body_name.hpp"
+#include "treadmark/model/shape/profile_scatter.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -73,6 +74,7 @@ class Judge {
                        ? fmt::format("{}", p_.y.size())
                        : fmt::format("{} of {} in the file", p_.y.size(), source_.points_in_file));
     for (const auto& [name, value] : source_.said) fact("file says", fmt::format("{} = {}", name, value));
+    for (const measured::Doubt& doubt : source_.doubts) remark(doubt.name.c_str(), doubt.text);
   }
 
   void ranges() {
@@ -246,6 +248,14 @@ class Judge {
       remark("noise", fmt::format("the points scatter by {:.2g} mm and the curve runs through all of them: pressures "
                                   "are too large; set smoothing = \"auto\", or smooth them in the file",
                                   kMm * across));
+    if (p_.scatter && !p_.scatter->between.empty()) {
+      const std::vector<double>& between = p_.scatter->between;
+      const auto worst = std::max_element(between.begin(), between.end());
+      const double y = p_.y[static_cast<std::size_t>(worst - between.begin())];
+      fact("between points", fmt::format("the curve is known to {:.2g} um (standard deviation), at y = {:.1f} mm; what "
+                                         "that leaves of a contact is its noise",
+                                         kMm * kMm * *worst, kMm * y));
+    }
     if (p_.scatter && p_.scatter->removed > 0.0)
       fact("smoothed", fmt::format("points moved by {:.2g} mm (rms)", kMm * p_.scatter->removed));
   }

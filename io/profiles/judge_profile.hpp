@@ -13,8 +13,8 @@ namespace treadmark::io {
 
 /// A warning about a profile.
 struct ProfileRemark {
-  std::string name;  ///< "flange_back", "nominal_radius", "unit", "exchanged", "gap", "gauge_side", "noise", and those
-                     ///< of measured::Doubt
+  std::string name;  ///< "flange_back", "nominal_radius", "unit", "exchanged", "gap", "gauge_side", "noise", "columns"
+                     ///< and those of measured::Doubt
   std::string text;  ///< what is seen, where, and what to set
   /// From where to where in y, of a fault that matters only to contact there [m].
   std::optional<std::pair<double, double>> place = {};

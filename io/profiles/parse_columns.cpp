@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "treadmark/core/platform/ranges.hpp"
@@ -44,12 +45,14 @@ void check_title(const LineScanner& scanner, std::string_view line) {
 /// Columns with names, of which others than those of the coordinates may hold words: labels, times.
 class NamedColumns {
  public:
-  static std::optional<NamedColumns> in(const KeptLine& line) {
+  /// profile: of several side by side the one with this number.
+  static std::optional<NamedColumns> in(const KeptLine& line, int profile) {
     for (const char separator : {';', '\t', ','}) {
       if (line.line().find(separator) == std::string_view::npos) continue;
       const std::vector<std::string> names = points::names_in(line.line(), separator);
-      std::optional<ColumnRoles> roles = roles_of(names, line);
-      if (roles) return NamedColumns(*roles, separator, names.size());
+      const std::vector<ColumnRoles> found = profiles_of(names, line);
+      const auto number = static_cast<std::size_t>(std::max(profile, 1));
+      if (number <= found.size()) return NamedColumns(found[number - 1], separator, names.size());
     }
     return std::nullopt;
   }
@@ -86,9 +89,60 @@ bool is_row_of_voids(const std::string& line) {
   return false;
 }
 
+/// A line that has a name for each column, though not those of a profile.
+struct ForeignNames {
+  const KeptLine* line = nullptr;
+  std::vector<std::string> names;
+};
+
+/// Words in comments or between blanks are a title or prose, unless all are as short as symbols and one is known.
+ForeignNames foreign_names(const std::vector<KeptLine>& words, const std::vector<KeptLine>& comments, char separator,
+                           std::size_t columns) {
+  constexpr std::size_t kSymbol = 4;
+  for (const std::vector<KeptLine>* lines : {&words, &comments})
+    for (auto line = lines->rbegin(); line != lines->rend(); ++line)
+      for (const char s : {separator, ';', '\t', ','}) {
+        std::vector<std::string> names = names_for(line->line(), s, columns);
+        if (names.size() < 2) continue;
+        const bool marked = lines == &words && s != ' ', usual = s == separator || s == '\t';
+        const bool symbols = ranges::all_of(names, [](std::string_view name) {
+          points::take_unit(name);
+          return name.size() <= kSymbol;
+        });
+        if (coordinates_among(names) > 0 ? marked || symbols : marked && usual) return {&*line, std::move(names)};
+      }
+  return {};
+}
+
+/// What is said of columns that were taken for y and z by their place, and of those beside them.
+void judge_columns(const ColumnTable& table, const points::FieldStyle& style, const ColumnRoles& roles,
+                   const ForeignNames& names, ProfileSource& source) {
+  const ColumnTable::Others others = table.others(roles, style);
+  const auto word = [&](int column) {
+    return names.line != nullptr ? printable(names.names[static_cast<std::size_t>(column)])
+                                 : fmt::format("{}", column + 1);
+  };
+  std::string unused;
+  for (const int column : others.varying) unused += (unused.empty() ? "" : ", ") + word(column);
+  const std::string taken = fmt::format("column {} was taken as y, column {} as z", word(roles.y), word(roles.z)),
+                    advice = "name them in a line before, for example: y;z";
+  const std::size_t known = names.line != nullptr ? coordinates_among(names.names) : 0;
+  if (names.line != nullptr && (known > 0 || !others.varying.empty()))
+    source.doubts.push_back(
+        {"columns", fmt::format("line {} names {} columns, and they are not known as y and z of a profile: {}; {}",
+                                names.line->number(), names.names.size(), taken, advice)});
+  else if (others.like_z)
+    source.doubts.push_back(
+        {"columns", fmt::format("column {} runs as column {} does: are there several profiles side by side? {}; {}",
+                                word(*others.like_z), word(roles.z), taken, advice)});
+  else if (names.line != nullptr)
+    source.notes.push_back(fmt::format("line {} names no column that is known: {}", names.line->number(), taken));
+  if (!unused.empty()) source.notes.push_back("columns not used: " + unused);
+}
+
 }  // namespace
 
-ColumnContent parse_plain_columns(std::string_view text, const std::string& file) {
+ColumnContent parse_plain_columns(std::string_view text, const std::string& file, int profile) {
   LineScanner scanner(text, file);
   ColumnContent content;
   ColumnTable table(file);
@@ -119,7 +173,7 @@ ColumnContent parse_plain_columns(std::string_view text, const std::string& file
     }
     check_title(scanner, line);
     words.emplace_back(file, scanner.number(), line);
-    if (std::optional<NamedColumns> found = NamedColumns::in(words.back())) names = std::move(found);
+    if (std::optional<NamedColumns> found = NamedColumns::in(words.back(), profile)) names = std::move(found);
   }
   ProfileSource& source = content.source;
   content.points.file = file;
@@ -132,19 +186,30 @@ ColumnContent parse_plain_columns(std::string_view text, const std::string& file
   table.drop_count(source.notes);
   const points::FieldStyle style = table.style();
   table.turn_two_lines(style, source.notes);
+  const std::size_t columns = table.columns(style.separator);
   std::optional<ColumnRoles> roles;
   const KeptLine* header = nullptr;
   for (const std::vector<KeptLine>* lines : {&words, &comments})
     for (auto line = lines->rbegin(); line != lines->rend() && !roles; ++line) {
-      roles = roles_in(*line, line->line(), style.separator, table.columns(style.separator));
+      roles = roles_in(*line, line->line(), style.separator, columns, profile);
       if (roles) header = &*line;
     }
+  const ForeignNames foreign = roles ? ForeignNames{} : foreign_names(words, comments, style.separator, columns);
   for (const KeptLine& line : words)
-    if (&line != header)
+    if (&line != header && &line != foreign.line)
       source.notes.push_back(fmt::format("line {} holds no point: {}", line.number(), printable(line.line())));
-  if (!roles) roles = table.assume_roles(style, source.notes);
-  if (!roles->in_words.empty()) source.notes.push_back("columns not used: " + roles->in_words);
+  if (!roles) {
+    if (profile > 1)
+      throw Error(ErrorKind::input_data, fmt::format("there is no profile {} in the file", profile), {file, 0, 0},
+                  "name the columns of each in a line before them, for example: y1;z1;y2;z2");
+    roles = table.assume_roles(style, source.notes);
+    judge_columns(table, style, *roles, foreign, source);
+  } else if (!roles->in_words.empty()) {
+    source.notes.push_back("columns not used: " + roles->in_words);
+  }
   source.unit = roles->unit ? roles->unit : unit.unit();
+  source.unknown_unit = roles->unknown_unit;
+  if (!source.unit && !source.unknown_unit) source.unknown_unit = unit.unknown();
   source.kind = fmt::format("columns y z {}, {}", roles->named ? "by their names" : "without names", style.in_words());
   content.radius_factor = roles->radius_factor;
   content.points = table.points(*roles, style, !roles->named, source.notes);

@@ -40,6 +40,7 @@ bool begins_like_miniprof(std::string_view text);
 SimpackContent parse_simpack(std::string_view text, const std::string& file, Body body);
 /// section: of a file of several profiles the one with this number; 0: the one that was measured.
 ColumnContent parse_miniprof(std::string_view text, const std::string& file, Body body, int section);
-ColumnContent parse_plain_columns(std::string_view text, const std::string& file);
+/// profile: of several side by side the one with this number; 0: the only one.
+ColumnContent parse_plain_columns(std::string_view text, const std::string& file, int profile);
 
 }  // namespace treadmark::io::profiles

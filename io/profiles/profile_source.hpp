@@ -9,6 +9,7 @@
 
 #include "treadmark/analysis/measured/lumps.hpp"
 #include "treadmark/analysis/measured/section.hpp"
+#include "treadmark/io/points/unit_words.hpp"
 #include "treadmark/model/shape/length_unit.hpp"
 
 namespace treadmark::io {
@@ -20,6 +21,8 @@ struct ProfileSource {
   std::optional<double> nominal_radius;  ///< of a wheel [m]: half the diameter at the tape line
   std::vector<std::pair<std::string, std::string>> said;  ///< names and values in the file that the points do not show
   std::vector<std::string> notes;                         ///< repairs, and what was not used
+  std::vector<measured::Doubt> doubts;                    ///< about what its words mean: "columns", "unit"
+  std::optional<points::UnknownUnit> unknown_unit;        ///< that the file states
   std::size_t points_in_file = 0;                         ///< before repairs
   double scale_to_mm = 1.0;                               ///< from numbers of the file to mm
   bool mirrored_y = false, mirrored_z = false;            ///< in all, with what the file's own flags ask for

@@ -95,7 +95,16 @@ double extent_of(const std::vector<double>& values) {
   return most - least;
 }
 
-void check_length(const RawPoints& points, Body body, double asked_scale) {
+/// What to set where the file states a unit that is not converted; empty where it does not, or something is set.
+std::string advice_on_unit(const ProfileSource& source, double asked_scale) {
+  if (!source.unknown_unit || !source.unknown_unit->of_length || asked_scale != 1.0) return {};
+  const points::UnknownUnit& unit = *source.unknown_unit;
+  return fmt::format("the file says that its unit is {}, which is not converted: set scale_to_mm{}",
+                     profiles::printable(unit.word),
+                     unit.millimetres > 0.0 ? fmt::format(" = {:g}", unit.millimetres) : " to the mm in one of it");
+}
+
+void check_length(const RawPoints& points, Body body, double asked_scale, const ProfileSource& source) {
   const double length = profiles::total_length(points);
   if (length >= kShortest_mm && length <= kLongest_mm) return;
   const auto plausible = [](double l) { return l >= kShortest_mm && l <= kLongest_mm; };
@@ -113,6 +122,7 @@ void check_length(const RawPoints& points, Body body, double asked_scale) {
   if (plausible(1e-3 * length))
     advice = asked_scale == 1.0 ? "is the file in micrometres? use a scale of 0.001"
                                 : "is a file in mm scaled like one in metres? use a scale of 1";
+  if (std::string unit = advice_on_unit(source, asked_scale); !unit.empty()) advice = std::move(unit);
   throw Error(ErrorKind::input_data,
               fmt::format("the {} profile is {:.4g} mm long, outside {:g} to {:g} mm", body_name(body), length,
                           kShortest_mm, kLongest_mm),
@@ -181,7 +191,7 @@ SourcedProfile finish(RawPoints&& points, Body body, bool inverted, bool radii, 
                       ProfileSource&& source) {
   check_count(points);
   std::optional<RawPoints> whole = keep_head(points, body, source.notes);
-  check_length(points, body, options.scale);
+  check_length(points, body, options.scale, source);
   profiles::refuse_faults(points);
   measured::SectionPoints section{body, std::move(points.y), std::move(points.z)};
   scale_to_metres(section);
@@ -272,13 +282,20 @@ SourcedProfile column_profile(profiles::ColumnContent&& content, Body body, cons
       std::abs(1e3 * metres_per(*source.unit) / options.scale - 1.0) > kSameScale)
     source.notes.push_back(fmt::format("the file says that its unit is {}, the scale of {:g} to mm is used instead",
                                        symbol(*source.unit), options.scale));
+  if (std::string unit = advice_on_unit(source, options.scale); !unit.empty())
+    source.doubts.push_back({"unit", std::move(unit)});
+  else if (source.unknown_unit && options.scale == 1.0)
+    source.notes.push_back(
+        fmt::format("the file says that its unit is {}, which is none of length that is known: its "
+                    "numbers were taken as mm",
+                    profiles::printable(source.unknown_unit->word)));
   scale(points, source.scale_to_mm);
   return finish(std::move(points), body, false, content.radius_factor > 0.0, options, std::move(source));
 }
 
 /// Wheel profiles of GENSYS: y to the middle of the track, z down.
 SourcedProfile gensys_profile(std::string_view text, const std::string& file, ProfileOptions options) {
-  profiles::ColumnContent content = profiles::parse_plain_columns(text, file);
+  profiles::ColumnContent content = profiles::parse_plain_columns(text, file, 0);
   content.source.kind = "GENSYS, " + content.source.kind;
   for (double& y : content.points.y) y = -y;
   content.source.mirrored_y = true;
@@ -304,7 +321,7 @@ void check_file(const std::filesystem::path& file, Body body, const SourcePositi
                 where, "exchange the files");
 }
 
-/// A name like 'a.mpt#2' for the second profile of a file.
+/// A name like 'a.mpt#2' or 'a.csv#2' for the second profile of a file.
 struct NamedSection {
   std::filesystem::path file;
   int section = 0;
@@ -336,8 +353,8 @@ SourcedProfile parse_text(std::string_view text, const std::string& file, Profil
   const std::string converted = profiles::from_utf16(text);
   if (!converted.empty()) text = converted;
   const ProfileFormat format = format_of(text, named);
-  if (section > 0 && format != ProfileFormat::miniprof)
-    throw Error(ErrorKind::configuration, "only files of MiniProf hold several profiles", {file, 0, 0},
+  if (section > 0 && format != ProfileFormat::miniprof && format != ProfileFormat::two_column)
+    throw Error(ErrorKind::configuration, "only files of MiniProf and of columns hold several profiles", {file, 0, 0},
                 "leave out the number behind '#'");
   switch (format) {
     case ProfileFormat::simpack:
@@ -349,7 +366,7 @@ SourcedProfile parse_text(std::string_view text, const std::string& file, Profil
     case ProfileFormat::two_column:
       break;
   }
-  return column_profile(profiles::parse_plain_columns(text, file), body, options);
+  return column_profile(profiles::parse_plain_columns(text, file, section), body, options);
 }
 
 Profile smoothed(Profile&& profile) {
@@ -399,7 +416,7 @@ std::optional<bool> looks_upside_down(const std::filesystem::path& file, Body bo
   if (format == ProfileFormat::simpack || format == ProfileFormat::gensys) return std::nullopt;
   profiles::ColumnContent content = format == ProfileFormat::miniprof
                                         ? profiles::parse_miniprof(text, named.file.string(), body, named.section)
-                                        : profiles::parse_plain_columns(text, named.file.string());
+                                        : profiles::parse_plain_columns(text, named.file.string(), named.section);
   RawPoints points = column_points(content, options);
   if (options.placement == ProfileOptions::Placement::reference) return profiles::z_points_up(points, body);
   scale(points, kMillimetre * content.source.scale_to_mm);

@@ -164,7 +164,7 @@ constexpr Quantity<P> kPatchQuantities[] = {
      "greatest surface temperature of the wheel in contact",
      {"max_temperature_2"}},
     {"noise", "pmax_MPa", kStress, B::heat, within<&P::noise, &Noise::pmax>(),
-     "standard deviation that noise of measured profiles and of imported scans leaves to the largest pressure; where they were smoothed by it",
+     "standard deviation that noise of measured profiles and of imported scans, or points far apart, leave to the largest pressure; where they do",
      {"noise_pmax"}, {"its error by noise", Digits::four, "noise_pmax_MPa"}},
     {"noise", "area_mm2", kArea, B::heat, within<&P::noise, &Noise::area>(), "to the area of contact",
      {"noise_area"}},

@@ -14,8 +14,11 @@ struct ProfileScatter {
   double step = 0.0;                          ///< usual distance of neighbouring points [m]
   double removed = 0.0;                       ///< root mean square of what smoothing moved the points by [m]
 
-  /// What follows is there if the points were smoothed.
+  /// What follows is there if the points were smoothed, or are exact and so far apart that the curve is not known
+  /// between them.
   std::vector<double> s;  ///< arc length of each point along the curve [m]
+  /// Of exact points: standard deviation of the curve across itself midway from each but the last to the next [m].
+  std::vector<double> between;
   /// Across the curve at each point, from it to the one of each other assumption about where curvature changes [m].
   std::vector<std::vector<double>> others;
   /// The curve's error across itself is a spline of equal knots; the inverse of its coefficients' covariance is L D L'.

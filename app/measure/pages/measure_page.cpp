@@ -198,7 +198,7 @@ report::Table shown_numbers(const MeasuredFile& file, const Numbers& numbers) {
     std::string range, status = known ? "" : row.access.reason(numbers);
     if (limit != file.limits.end()) {
       range = range_of(limit->limit);
-      if (known) status = word_of(limit->verdict) + (limit->sure ? "" : ", nearer than its uncertainty");
+      if (known) status = word_of(limit->verdict) + how_sure(*limit);
     }
     table.rows.push_back(
         {{std::string(row.label), in_decimals(row.in_file(numbers), row.decimals), io::words_of_key(row.key).unit,

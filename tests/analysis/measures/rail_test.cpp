@@ -6,6 +6,9 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "treadmark/analysis/measures/rail.hpp"
 #include "treadmark/backends/analytic/sample.hpp"
@@ -150,6 +153,107 @@ TEST(RailMeasures, ErrorsLieInsideTheStatedUncertainty) {
   EXPECT_GE(w1, 34);
   EXPECT_GE(w2, 34);
   EXPECT_GE(inclined, 34);
+}
+
+std::vector<std::string> words_of(const RailMeasures& m) {
+  std::vector<std::string> out;
+  for (const measured::Doubt& doubt : m.doubts) {
+    EXPECT_EQ(doubt.name, "nominal_profile");
+    out.push_back(doubt.text);
+  }
+  return out;
+}
+
+TEST(RailMeasures, TheNominalSectionOfAnotherRailIsDoubted) {
+  for (const auto& [own, nominal] : {std::pair{"54E1", "60E1"}, {"60E1", "54E1"}, {"49E1", "54E1"}}) {
+    const Section wanted(outline_of(nominal), 0.0);
+    const RailMeasures m = measure_rail(Section(outline_of(own), 0.0), &wanted);
+    EXPECT_THAT(words_of(m), ::testing::Contains(::testing::HasSubstr("what does not wear"))) << own << nominal;
+    // a misfit that is alike over some millimetres is no scatter, of which the mean of hundreds of places is known well
+    EXPECT_GT(m.w1.uncertainty, 0.3 * m.residual) << own << nominal;
+  }
+}
+
+TEST(RailMeasures, TheirOwnNominalSectionsAreNotDoubted) {
+  int measured = 0;
+  for (const LibraryProfile& row : profile_library()) {
+    if (row.family || row.body != Body::rail || !(row.area > 0.0)) continue;
+    const Section section(outline_of(row.name), 0.0);
+    for (const RailAlignment alignment : {RailAlignment::unworn, RailAlignment::top, RailAlignment::none}) {
+      RailGauge gauge;
+      gauge.alignment = alignment;
+      try {
+        EXPECT_THAT(words_of(measure_rail(section, &section, gauge)), ::testing::IsEmpty()) << row.name;
+        ++measured;
+      } catch (const Error&) {
+        // shapes that are told from no others by their sides
+      }
+    }
+  }
+  EXPECT_GT(measured, 39);
+  // worn on top and side, inclined, and with a lip of 1.5 mm
+  const Section nominal(outline_of("60E1"), 0.0);
+  Profile worn = milled(outline_of("60E1"), 4e-3);
+  for (std::size_t i = 0; i < worn.y.size(); ++i)
+    if (worn.y[i] < -20e-3 && worn.z[i] < 30e-3) worn.y[i] = std::max(worn.y[i], -32e-3);
+  EXPECT_THAT(words_of(measure_rail(Section(moved(worn, -0.025, 2e-3, 1e-3), 0.0), &nominal)), ::testing::IsEmpty());
+  EXPECT_THAT(words_of(measure_rail(Section(worn, 0.0), &nominal, as_it_lies())), ::testing::IsEmpty());
+  Profile lip = outline_of("60E1");
+  for (std::size_t i = 0; i < lip.y.size(); ++i)
+    if (lip.y[i] < -20e-3 && std::fabs(lip.z[i] - 13e-3) < 3e-3) lip.y[i] -= 1.5e-3;
+  EXPECT_THAT(words_of(measure_rail(Section(lip, 0.0), &nominal)), ::testing::IsEmpty());
+}
+
+TEST(RailMeasures, MetalThatHasGrownIsDoubted) {
+  const Section nominal(outline_of("60E1"), 0.0);
+  for (const double grown : {0.4e-3, 1e-3}) {
+    Profile raised = outline_of("60E1");
+    for (double& z : raised.z)
+      if (z < 6e-3) z -= grown;
+    for (const RailAlignment alignment : {RailAlignment::unworn, RailAlignment::none}) {
+      RailGauge gauge;
+      gauge.alignment = alignment;
+      const RailMeasures m = measure_rail(Section(raised, 0.0), &nominal, gauge);
+      EXPECT_NEAR(m.w1.value, -grown, 1e-6);
+      const auto words = words_of(m);
+      if (grown < 0.5e-3)
+        EXPECT_THAT(words, ::testing::IsEmpty());
+      else
+        EXPECT_THAT(words, ::testing::Contains(::testing::HasSubstr("W1 is -1.00 mm: metal would have grown")));
+    }
+  }
+}
+
+TEST(RailMeasures, ASectionThatDoesNotLieInTheNominalOnesAxesIsDoubted) {
+  const Section nominal(outline_of("60E1"), 0.0);
+  for (const double aside : {2e-3, -30e-3}) {
+    const Section section(moved(outline_of("60E1"), 0.0, aside, 0.0), 0.0);
+    EXPECT_THAT(words_of(measure_rail(section, &nominal, as_it_lies())),
+                ::testing::Contains(::testing::HasSubstr("as the section lies")));
+    EXPECT_THAT(words_of(measure_rail(section, &nominal)), ::testing::IsEmpty());
+  }
+}
+
+TEST(RailMeasures, ErrorsThatAreNotKnownAreUnknown) {
+  const Section nominal(outline_of("60E1"), 0.0);
+  Section section(milled(outline_of("60E1"), 1e-3), 0.0);
+  const RailMeasures exact = measure_rail(section, &nominal);
+  section.claim_error(kUnknown);
+  const RailMeasures m = measure_rail(section, &nominal);
+  for (const Measure RailMeasures::*of :
+       {&RailMeasures::w1, &RailMeasures::w2, &RailMeasures::w3, &RailMeasures::equivalent, &RailMeasures::loss,
+        &RailMeasures::face_angle, &RailMeasures::head_width, &RailMeasures::inclination}) {
+    EXPECT_EQ((m.*of).value, (exact.*of).value);
+    EXPECT_TRUE(std::isnan((m.*of).uncertainty));
+  }
+  // a bow of 10 um over the crown changes its radius by R^2 2 d/a^2 = 18 mm
+  Section crown(outline_of("60E1"), 0.0);
+  crown.claim_error(10e-6);
+  const Measure radius = measure_rail(crown, &nominal).crown_radius;
+  EXPECT_GT(radius.uncertainty, 18e-3);
+  EXPECT_LT(radius.uncertainty, 100e-3);
+  crown.claim_error(kUnknown);
+  EXPECT_TRUE(std::isnan(measure_rail(crown, &nominal).crown_radius.uncertainty));
 }
 
 void expect_no_rail(const Profile& profile, const Section* nominal, const char* words) {

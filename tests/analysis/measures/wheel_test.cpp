@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "treadmark/analysis/measures/wheel.hpp"
 #include "treadmark/backends/analytic/sample.hpp"
@@ -168,6 +170,49 @@ TEST(WheelMeasures, ErrorsLieInsideTheStatedUncertainty) {
   EXPECT_GE(height, 90);
   EXPECT_GE(thickness, 90);
   EXPECT_GE(gradient, 90);
+}
+
+std::vector<std::string> doubts_about(const Profile& points, const char* nominal) {
+  const std::vector<NominalWheel> nominals{{nominal, Section(points_of(nominal))}};
+  std::vector<std::string> out;
+  for (const measured::Doubt& doubt : measure_wheel(Section(points, 0.0), {}, 0.0, nominals).doubts) {
+    EXPECT_EQ(doubt.name, "nominal_profile");
+    out.push_back(doubt.text);
+  }
+  return out;
+}
+
+TEST(WheelMeasures, TheNominalSectionOfAnotherWheelIsDoubted) {
+  for (const char* name : {"S1002", "1:40", "EPS", "S1002/h30/e31/10%", "S1002/e28.5", "1:40/h32"})
+    EXPECT_THAT(doubts_about(points_of(name), name), ::testing::IsEmpty()) << name;
+  // a hollow tread and a thin flange are wear
+  Profile worn = points_of("S1002/e29");
+  for (std::size_t i = 0; i < worn.y.size(); ++i)
+    if (const double y = worn.y[i] / kMm; y > -20.0 && y < 50.0)
+      worn.z[i] -= 3.0 * kMm * std::pow(std::cos(std::numbers::pi * (y - 15.0) / 70.0), 2);
+  EXPECT_THAT(doubts_about(worn, "S1002"), ::testing::IsEmpty());
+  // a flange of 28 mm against one of 30 mm, one of 32.5 mm against one of 28.5 mm
+  EXPECT_THAT(doubts_about(points_of("S1002"), "S1002/h30"),
+              ::testing::Contains(HasSubstr("the tread wear is -2.00 mm: metal would have grown")));
+  EXPECT_THAT(doubts_about(points_of("S1002"), "S1002/e28.5"), ::testing::Contains(HasSubstr("the flange wear is -")));
+  // a flange that falls off to its back 1.5 mm deeper
+  Profile other = points_of("S1002");
+  for (std::size_t i = 0; i < other.y.size(); ++i)
+    if (other.y[i] < -58 * kMm && other.y[i] > -69 * kMm) other.z[i] -= 1.5 * kMm;
+  EXPECT_THAT(doubts_about(other, "S1002"), ::testing::Contains(HasSubstr("between its back and tip")));
+}
+
+TEST(WheelMeasures, ErrorsThatAreNotKnownAreUnknown) {
+  Section section(points_of("S1002"), 0.0);
+  const WheelMeasures exact = measure_wheel(section);
+  section.claim_error(kUnknown);
+  const WheelMeasures m = measure_wheel(section);
+  EXPECT_TRUE(m.back_seen);
+  for (const Measure WheelMeasures::*of : {&WheelMeasures::flange_height, &WheelMeasures::flange_thickness,
+                                           &WheelMeasures::flange_gradient, &WheelMeasures::hollow}) {
+    EXPECT_EQ((m.*of).value, (exact.*of).value);
+    EXPECT_TRUE(std::isnan((m.*of).uncertainty));
+  }
 }
 
 void expect_refused(const Profile& profile, const char* words) {

@@ -6,12 +6,15 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <random>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "treadmark/app/measure/measure_files.hpp"
 #include "treadmark/backends/analytic/sample.hpp"
+#include "treadmark/backends/profile_library.hpp"
 #include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/io/results/json_schema.hpp"
@@ -27,6 +30,7 @@ using ::testing::Contains;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 namespace fs = std::filesystem;
 
 std::string written(const fs::path& file, const std::string& text) {
@@ -197,11 +201,16 @@ TEST(Measure, ACorrugatedAndMilledRail) {
 }
 
 /// S1002 as an instrument writes it, y from the flange back.
-std::string miniprof_text(const std::string& header, double y_of_tape, double sign) {
+std::string miniprof_text(const std::string& header, double y_of_tape, double sign, double noise_mm = 0.0) {
   std::string text = header + "\n\n";
   const Profile points = analytic::sample_profile(StandardProfile{"S1002"}, 0.3e-3);
-  for (std::size_t i = points.y.size(); i-- > 0;)
-    text += std::to_string(sign * (1e3 * points.y[i] + y_of_tape)) + " " + std::to_string(1e3 * points.z[i]) + "\n";
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  for (std::size_t i = points.y.size(); i-- > 0;) {
+    const double y = 1e3 * points.y[i] + y_of_tape + noise_mm * normal(random),
+                 z = 1e3 * points.z[i] + noise_mm * normal(random);
+    text += std::to_string(sign * y) + " " + std::to_string(z) + "\n";
+  }
   return text;
 }
 
@@ -249,6 +258,10 @@ TEST(Measure, AxialRunoutIsTheWayOfTheFlangeBack) {
   EXPECT_NEAR(m["wheel"]["axial_runout_mm"], 0.6 * std::cos(kPi / 8.0), 2.0 * kBackOfASection);
   for (const auto& thickness : m["wheel"]["round"]["flange_thickness_mm"])
     EXPECT_NEAR(thickness, 32.5, kBackOfASection);
+  // nothing says how well slices are known
+  for (const char* key : {"flange_height_mm", "flange_thickness_mm", "axial_runout_mm", "runout_mm", "diameter_mm"})
+    EXPECT_TRUE(m["wheel"]["uncertainty"][key].is_null()) << key;
+  EXPECT_THAT(m["notes"].dump(), HasSubstr("its numbers have no uncertainty"));
 }
 
 TEST(Measure, TwoWheelsOfAnAxle) {
@@ -260,6 +273,38 @@ TEST(Measure, TwoWheelsOfAnAxle) {
   EXPECT_NEAR(m["wheel"]["back_to_back_mm"], 1360.0, 1e-3);
   EXPECT_NEAR(m["wheel"]["active_faces_mm"], 1425.0, 1e-3);
   EXPECT_EQ(run_program({"measure", "wheel", right, "--mate", right}).status, 3);
+  // the other wheel's points scatter, and what that leaves of its flange counts
+  const std::string noisy = written(folder.path() / "noisy.txt", miniprof_text("y z", 750.0, -1.0, 0.02));
+  const json both = measured({"wheel", right, "--mate", noisy})["wheel"]["uncertainty"];
+  EXPECT_LT(both["flange_thickness_mm"].get<double>(), 1e-3);
+  EXPECT_GT(both["active_faces_mm"].get<double>(), 5e-3);
+}
+
+/// Points of a standard rail, z up to this depth [mm].
+std::string rail_text(const std::string& name, double deepest) {
+  std::string text = "y;z\n";
+  for (const Vec2& p : library_outline(name, 0.4e-3))
+    if (1e3 * p.y() < deepest) text += std::to_string(1e3 * p.x()) + ";" + std::to_string(1e3 * p.y()) + "\n";
+  return text;
+}
+
+TEST(Measure, WearAgainstAnotherRailThanTheMeasuredOneIsDoubted) {
+  const json whole = measured({"rail", "54E1", "--nominal", "60E1", "--alignment", "unworn"}, 1);
+  EXPECT_THAT(whole["notes"].dump(), HasSubstr("nominal_profile: what does not wear"));
+  EXPECT_THAT(whole["notes"].dump(), HasSubstr("fits better"));
+  EXPECT_EQ(measured({"rail", "54E1", "--nominal", "54E1", "--alignment", "unworn"})["notes"].size(), 0U);
+  // of a head alone other rails' fishing surfaces and sides may fit, too: it is another one as new
+  const TemporaryFolder folder;
+  const std::string head = written(folder.path() / "head.csv", rail_text("54E1", 44.0));
+  EXPECT_THAT(measured({"rail", head, "--nominal", "60E1"}, 1)["notes"].dump(), HasSubstr("nominal_profile"));
+  EXPECT_THAT(measured({"rail", head, "--nominal", "54E1"})["notes"].dump(), Not(HasSubstr("nominal_profile")));
+  // in a list
+  const std::string csv = (folder.path() / "all.csv").string();
+  ASSERT_EQ(run_program({"measure", "rail", head, "54E1", "--nominal", "60E1", "--csv", csv}).status, 0);
+  std::ifstream table(csv);
+  const std::string text((std::istreambuf_iterator<char>(table)), std::istreambuf_iterator<char>());
+  EXPECT_THAT(text, StartsWith("name,kind,doubts,status,error,"));
+  EXPECT_THAT(text, HasSubstr("nominal_profile"));
 }
 
 TEST(Measure, WrongBodiesAreRefusedByName) {

@@ -116,6 +116,27 @@ TEST(MeasureSchema, IsMadeOfItsRows) {
   expect_in_schema<RailNumbers>(schema["$defs"]["rail"], "along");
 }
 
+TEST(MeasureNumbers, NoLimitIsSureWhereTheUncertaintyIsNotKnown) {
+  RailNumbers numbers;
+  Limits limits;
+  limits.rail = {{"w1_mm", {}, 2.0}};
+  const struct {
+    double uncertainty;
+    bool sure;
+    const char* words;
+  } rows[] = {{0.1e-3, true, ""},
+              {1.5e-3, false, ", nearer than its uncertainty"},
+              {measures::kUnknown, false, ", its uncertainty is not known"}};
+  for (const auto& row : rows) {
+    numbers.w1 = {1e-3, row.uncertainty, {}};
+    const std::vector<LimitResult> found = compare_limits(numbers, limits);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].verdict, Verdict::within);
+    EXPECT_EQ(found[0].sure, row.sure);
+    EXPECT_EQ(how_sure(found[0]), row.words);
+  }
+}
+
 TEST(MeasureNumbers, OfAWheel) {
   WheelNumbers numbers;
   const std::vector<Line> lines = lines_of(numbers);

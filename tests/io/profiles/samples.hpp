@@ -42,6 +42,17 @@ inline std::vector<Point> wheel_points() {
   return points;
 }
 
+/// A wheel [mm], z down: cone 1:20, a flange with a back at y = -70.
+inline std::vector<Point> wheel(double step = 0.5) {
+  std::vector<Point> points;
+  for (double y = 60.0; y > -40.0; y -= step) points.push_back({y, -y / 20.0});
+  for (double z = 2.0 + step; z < 20.0; z += step) points.push_back({-40.0 - (z - 2.0) / 3.0, z});
+  for (double a = 0.0; a <= 180.0; a += 3.0)
+    points.push_back({-58.0 + 12.0 * std::cos(a * M_PI / 180.0), 20.0 + 8.0 * std::sin(a * M_PI / 180.0)});
+  for (double z = 20.0 - step; z > 5.0; z -= step) points.push_back({-70.0, z});
+  return points;
+}
+
 inline std::string columns(const std::vector<Point>& points) {
   std::string text;
   for (const Point& p : points) text += std::to_string(p.y) + "  " + std::to_string(p.z) + "\n";
