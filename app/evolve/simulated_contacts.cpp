@@ -69,8 +69,7 @@ class SimulatedContacts : public ContactSource {
       for (std::size_t b = 0; b < surfaces.size(); ++b) {
         const bool wheel = file_.bodies[b].body == Body::wheel;
         store.put(wheel ? run.contact.wheel : run.rail(first_passing(run)->side), file_.bodies[b].body,
-                  wheel ? run.contact.wheelset.nominal_radius : 0.0,
-                  std::make_shared<const NaturalSurface>(surfaces[b]));
+                  wheel ? radius_of(run) : 0.0, std::make_shared<const NaturalSurface>(surfaces[b]));
       }
       SimulationOptions options;
       options.settings = settings_;
@@ -101,10 +100,17 @@ class SimulatedContacts : public ContactSource {
  private:
   GivenBody given_wheel(SurfaceStore& store, const io::EvolvingBody& input) const {
     GivenBody body;
-    body.radius = runs_.front().contact.wheelset.nominal_radius;
+    body.radius = radius_of(runs_.front());
     body.surface = natural_of(store, runs_.front(), true);
     for (const io::SimulationFile& run : runs_) {
-      if (natural_of(store, run, true) != body.surface || run.contact.wheelset.nominal_radius != body.radius)
+      if (const auto other = ranges::find_if(
+              run.wheels, [&](const auto& w) { return passes(w) && run.wheel_radius(w.wheelset) != radius_of(run); });
+          other != run.wheels.end())
+        throw Error(ErrorKind::configuration,
+                    fmt::format("wheels of {:.6g} mm and of {:.6g} mm evolve, which are no single surface",
+                                1e3 * radius_of(run), 1e3 * run.wheel_radius(other->wheelset)),
+                    run.contact.wheel.where, "let wheels of one radius evolve: the others with defects = false");
+      if (natural_of(store, run, true) != body.surface || radius_of(run) != body.radius)
         throw Error(ErrorKind::configuration, "the positions have different wheels, which evolve",
                     run.contact.wheel.where, "what evolves is one surface; vary the other body");
       if (!ranges::all_of(run.wheels, [&](const auto& wheel) { return passes(wheel); }) &&
@@ -163,7 +169,7 @@ class SimulatedContacts : public ContactSource {
                   where,
                   local_wheel ? "name the angles of the places in [simulation.fields] pitch_deg"
                               : "name instants in [simulation.fields]: pitch_deg or position_m");
-    if (local_wheel && run.settings.distance > 2.0 * kPi * run.contact.wheelset.nominal_radius)
+    if (local_wheel && run.settings.distance > 2.0 * kPi * radius_of(run))
       throw Error(ErrorKind::configuration, "the wheel makes more than one turn: its places would count twice", where,
                   "let the simulation end within one turn (simulation.distance_m)");
   }
@@ -178,6 +184,9 @@ class SimulatedContacts : public ContactSource {
     return ranges::find_if(run.wheels, [this](const auto& wheel) { return passes(wheel); });
   }
 
+  /// Nominal one of the wheels that pass first [m].
+  double radius_of(const io::SimulationFile& run) const { return run.wheel_radius(first_passing(run)->wheelset); }
+
   static std::shared_ptr<const NaturalSurface> natural_of(SurfaceStore& store, io::SurfaceSource source, Body body,
                                                           double radius) {
     source.backend.clear();
@@ -185,12 +194,12 @@ class SimulatedContacts : public ContactSource {
     return store.get(source, body, radius, {}).natural;
   }
 
-  /// Of the wheels that evolve, or of the others.
-  static std::shared_ptr<const NaturalSurface> natural_of(SurfaceStore& store, const io::SimulationFile& run,
-                                                          bool evolving) {
+  /// Of the wheels that evolve, or of the others as if they had that radius.
+  std::shared_ptr<const NaturalSurface> natural_of(SurfaceStore& store, const io::SimulationFile& run,
+                                                   bool evolving) const {
     io::WheelContactInput wheel;
     wheel.defects = evolving;
-    return natural_of(store, wheel_source(run, wheel), Body::wheel, run.contact.wheelset.nominal_radius);
+    return natural_of(store, wheel_source(run, wheel), Body::wheel, radius_of(run));
   }
 
   /// The instants of the wheels that evolve: those of a wheel share its weight.

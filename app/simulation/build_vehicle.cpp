@@ -8,12 +8,14 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/simulation/history_record.hpp"
 #include "treadmark/app/simulation/line_summary.hpp"
+#include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
@@ -32,9 +34,9 @@ namespace {
 
 constexpr double kRailBeyond = 0.5;  // [m], ahead of and behind what the wheels pass
 
-UsedBodies bodies_of(const wheelrail::Geometry& geometry, const io::SimulationFile& file, Side side) {
+UsedBodies bodies_of(const wheelrail::Geometry& geometry, double radius, Side side) {
   UsedBodies used;
-  used.wheel = {Body::wheel, geometry.wheel, nullptr, geometry.round_wheel, file.contact.wheelset.nominal_radius};
+  used.wheel = {Body::wheel, geometry.wheel, nullptr, geometry.round_wheel, radius};
   used.rail = {Body::rail, geometry.rail, nullptr, geometry.prismatic_rail, 0.0};
   used.left = side == Side::left;
   return used;
@@ -66,6 +68,10 @@ io::SurfaceSource wheel_source(const io::SimulationFile& file, const io::WheelCo
 
 io::WheelRailCase contact_input(const io::SimulationFile& file, const io::WheelContactInput& wheel) {
   io::WheelRailCase input = file.contact;
+  if (const double radius = file.wheel_radius(wheel.wheelset); radius != input.wheelset.nominal_radius) {
+    input.wheelset.nominal_radius = radius;
+    input.state.velocity.pitch = -input.state.velocity.x / radius;
+  }
   input.side = wheel.side;
   input.rail = file.rail(wheel.side);
   if (wheel.side == Side::left && !input.track.gauge_based) input.track.rail_y0 = -input.track.rail_y0;
@@ -90,6 +96,46 @@ namespace {
 
 bool is_chosen(const io::WheelContactInput& wheel) { return wheel.model == io::ContactModelInput::automatic; }
 
+bool has_full(const io::WheelContactInput& wheel) { return wheel.model != io::ContactModelInput::table; }
+
+bool has_table(const io::WheelContactInput& wheel) {
+  return wheel.model != io::ContactModelInput::full || wheel.changes_over();
+}
+
+/// Below a wheel, where it varies along the track.
+vehicle::FrictionAlong friction_below(const io::SimulationFile& file, const io::WheelContactInput& wheel) {
+  const io::FrictionVariation& v = file.contact.friction_variation;
+  if (v.kind != io::FrictionVariation::Kind::along_track) return {};
+  return {v.positions, v.laws, rail_place(file, wheel.wheelset)};
+}
+
+/// A shape with a radius of its own is no wheel of two.
+void refuse_other_radii(const io::SimulationFile& file) {
+  const auto refuse = [&](const io::SurfaceSource& shape, const char* what, auto&& has) {
+    const auto first = ranges::find_if(file.wheels, has);
+    const auto other = std::find_if(first, file.wheels.end(), [&](const io::WheelContactInput& wheel) {
+      return has(wheel) && file.wheel_radius(wheel.wheelset) != file.wheel_radius(first->wheelset);
+    });
+    if (other == file.wheels.end()) return;
+    throw Error(ErrorKind::configuration,
+                fmt::format("the wheels of wheelset {} have a radius of {:.6g} mm and those of wheelset {} {:.6g} mm, "
+                            "but {}",
+                            first->wheelset + 1, 1e3 * file.wheel_radius(first->wheelset), other->wheelset + 1,
+                            1e3 * file.wheel_radius(other->wheelset), what),
+                shape.where,
+                "give a profile or slices, or the shape of wheels without defects as simulation.other_wheel");
+  };
+  constexpr const char *kShape = "the shape of both lies about its axle, with one radius",
+                       *kTable = "the table of deviations of both counts along the circumference of one";
+  const auto damaged = [](const io::WheelContactInput& wheel) { return has_full(wheel) && wheel.defects; };
+  const io::SurfaceSource& wheel = file.contact.wheel;
+  if (has_own_radius(wheel))
+    refuse(wheel, kShape, [&](const io::WheelContactInput& w) { return !file.other_wheel || damaged(w); });
+  if (file.other_wheel && has_own_radius(*file.other_wheel))
+    refuse(*file.other_wheel, kShape, [&](const io::WheelContactInput& w) { return !damaged(w) || has_table(w); });
+  if (!wheel.offsets.file.empty() && !wheel.offsets.angles_deg) refuse(wheel, kTable, damaged);
+}
+
 /// Where a wheel's contact is found in full.
 vehicle::FullStretch stretch_of(const io::SimulationFile& file, const io::WheelContactInput& wheel) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -106,7 +152,8 @@ class Builder {
       : file_(file), store_(store), kept_(kept) {}
 
   wheelrail::Geometry full_geometry(const io::WheelContactInput& wheel) {
-    wheelrail::Geometry bodies = geometry(wheel_source(file_, wheel), file_.rail(wheel.side), rail_region(wheel.side));
+    wheelrail::Geometry bodies = geometry(wheel_source(file_, wheel), file_.wheel_radius(wheel.wheelset),
+                                          file_.rail(wheel.side), rail_region(wheel.side));
     if ((wheel.changes_over() || is_chosen(wheel)) && !bodies.round_wheel)
       throw Error(ErrorKind::configuration,
                   fmt::format("{} is not round: its contact cannot change over to a table", wheel_name(wheel)),
@@ -155,14 +202,12 @@ class Builder {
     return places;
   }
 
-  /// As the wheels are given, whatever represents them in the analysis.
-  std::shared_ptr<const DefectDepth> defect_depth() {
+  /// As the wheels of a radius are given, whatever represents them in the analysis.
+  std::shared_ptr<const DefectDepth> defect_depth(double radius) {
     io::SurfaceSource given = file_.contact.wheel;
     given.backend = "";
     given.resolution = 0.0;
-    const auto natural = [&] {
-      return store_.get(given, Body::wheel, file_.contact.wheelset.nominal_radius, Region{}).natural;
-    };
+    const auto natural = [&] { return store_.get(given, Body::wheel, radius, Region{}).natural; };
     const auto wheel = natural();
     if (wheel->constant_profile()) return nullptr;
     if (given.defects.empty() && given.offsets.file.empty())
@@ -173,9 +218,9 @@ class Builder {
   }
 
   /// Round wheel, rail without defects, both as they are given.
-  wheelrail::Geometry table_geometry(Side side) {
+  wheelrail::Geometry table_geometry(Side side, double radius) {
     const io::SurfaceSource wheel = as_given(round_wheel(file_));
-    wheelrail::Geometry bodies = geometry(wheel, table_rail(side), Region{});
+    wheelrail::Geometry bodies = geometry(wheel, radius, table_rail(side), Region{});
     if (!bodies.round_wheel)
       throw Error(ErrorKind::configuration, "wheels with table contact must be round", wheel.where,
                   "give the shape of the round wheels as simulation.other_wheel");
@@ -188,18 +233,18 @@ class Builder {
   }
 
   /// Whether there can be a table of a side.
-  bool has_section(Side side) {
-    return geometry(as_given(round_wheel(file_)), table_rail(side), Region{}).constant_profiles();
+  bool has_section(Side side, double radius) {
+    return geometry(as_given(round_wheel(file_)), radius, table_rail(side), Region{}).constant_profiles();
   }
 
-  std::shared_ptr<const vehicle::ContactTable> table(Side side, double wheel_load) {
+  std::shared_ptr<const vehicle::ContactTable> table(Side side, double radius, double wheel_load) {
     // Rails are right-hand ones: one table serves both sides of one shape.
-    auto& made = tables_[is_common(side) ? nullptr : &file_.rail(side)];
+    auto& made = tables_[{is_common(side) ? nullptr : &file_.rail(side), radius}];
     if (made) return made;
     // Before the cache is asked: this notes which surfaces a result comes from.
-    const wheelrail::Geometry bodies = table_geometry(side);
-    const wheelrail::Problem problem = to_problem(file_.contact, true);
-    const double radius = file_.contact.wheelset.nominal_radius;
+    const wheelrail::Geometry bodies = table_geometry(side, radius);
+    wheelrail::Problem problem = to_problem(file_.contact, true);
+    problem.wheelset.nominal_radius = radius;
     const std::string content = store_.content_key(round_wheel(file_), Body::wheel, radius) + " on " +
                                 store_.content_key(table_rail(side), Body::rail, 0.0);
     return made = kept_.get(content, problem, wheel_load,
@@ -248,7 +293,7 @@ class Builder {
     Region region;
     bool any = false;
     for (const io::WheelContactInput& wheel : file_.wheels) {
-      if (wheel.side != side || wheel.model == io::ContactModelInput::table) continue;
+      if (wheel.side != side || !has_full(wheel)) continue;
       const vehicle::FullStretch stretch = stretch_of(file_, wheel);
       const double low = std::max(stretch.rail_x, stretch.from) - kRailBeyond,
                    high = std::min(stretch.rail_x + file_.settings.distance, stretch.to) + kRailBeyond;
@@ -328,19 +373,19 @@ class Builder {
         "simulation.table_rail");
   }
 
-  wheelrail::Geometry geometry(const io::SurfaceSource& wheel_source, const io::SurfaceSource& rail_source,
-                               const Region& region) {
+  wheelrail::Geometry geometry(const io::SurfaceSource& wheel_source, double radius,
+                               const io::SurfaceSource& rail_source, const Region& region) {
     for (const io::SurfaceSource* source : {&rail_source, &wheel_source}) refuse_one_place(*source, "a simulation");
     const StoredSurface& rail = store_.get(rail_source, Body::rail, 0.0, region);
-    const StoredSurface& wheel = store_.get(wheel_source, Body::wheel, file_.contact.wheelset.nominal_radius, Region{});
+    const StoredSurface& wheel = store_.get(wheel_source, Body::wheel, radius, Region{});
     return {rail.represented.surface, wheel.represented.surface, rail.constant_profile(), wheel.constant_profile()};
   }
 
   const io::SimulationFile& file_;
   SurfaceStore& store_;
   ContactTables& kept_;
-  /// By the rail that they are of; null: simulation.table_rail.
-  std::map<const io::SurfaceSource*, std::shared_ptr<const vehicle::ContactTable>> tables_;
+  /// By the rail that they are of (null: simulation.table_rail) and the radius of the wheels [m].
+  std::map<std::pair<const io::SurfaceSource*, double>, std::shared_ptr<const vehicle::ContactTable>> tables_;
 };
 
 /// Of a step with a full contact [m].
@@ -353,7 +398,8 @@ vehicle::ChoiceSettings choice_settings(const io::SimulationFile& file, const io
                                         std::vector<std::pair<double, double>> always_full) {
   const io::SimulationSettings& s = file.settings;
   return {
-      {s.force_error, s.wear_error}, load, full_travel(file), std::move(always_full), rail_place(file, wheel.wheelset)};
+      {s.force_error, s.wear_error}, load, full_travel(file), std::move(always_full), rail_place(file, wheel.wheelset),
+      friction_below(file, wheel)};
 }
 
 /// What moves below each wheelset beside rails that bend: nothing where they bend sideways, too.
@@ -422,6 +468,7 @@ namespace {
 
 /// A vehicle whose wheels lack their contacts. Finds errors that need none.
 vehicle::VehicleOnTrack outline(const io::SimulationFile& file, bool irregularities) {
+  refuse_other_radii(file);
   vehicle::VehicleOnTrack v;
   v.speed = file.settings.speed;
   v.system = vehicle::assemble(file.vehicle, track_below(file), v.speed, file.settings.gravity);
@@ -456,35 +503,47 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
       if (rail.side == on.side) on.element = beside(rail, file, file.wheels[i], on);
     return rails ? rails->upon(on) : on.element;
   };
-  const double load = *ranges::max_element(v.system.wheelset_load) / 2.0;
-  const auto tabulated = [&](Side side) {
+  // Of the heaviest wheels with this radius, which have tables of their own.
+  const auto load_of = [&](double radius) {
+    double most = 0.0;
+    for (std::size_t set = 0; set < v.system.wheelset_load.size(); ++set)
+      if (file.wheel_radius(static_cast<int>(set)) == radius) most = std::max(most, v.system.wheelset_load[set]);
+    return most / 2.0;
+  };
+  const auto table_of = [&](const io::WheelContactInput& wheel) {
+    const double radius = file.wheel_radius(wheel.wheelset);
+    return builder.table(wheel.side, radius, load_of(radius));
+  };
+  const auto tabulated = [&](const io::WheelContactInput& wheel) {
     const Stopwatch watch(built.table_seconds);
-    return std::make_shared<vehicle::TableContact>(builder.table(side, load), side, builder.creep_table(progress));
+    return std::make_shared<vehicle::TableContact>(table_of(wheel), wheel.side, builder.creep_table(progress),
+                                                   friction_below(file, wheel));
   };
   for (std::size_t i = 0; i < file.wheels.size(); ++i) {
     const io::WheelContactInput& wheel = file.wheels[i];
     vehicle::WheelOnRail& on = v.wheels[i];
     if (wheel.pitch) v.pitch_at_start.at(static_cast<std::size_t>(wheel.wheelset)) = *wheel.pitch;
     std::shared_ptr<vehicle::TableContact> from_table;
-    const bool is_full = wheel.model != io::ContactModelInput::table;
-    if (wheel.model != io::ContactModelInput::full || wheel.changes_over()) {
+    const double radius = file.wheel_radius(wheel.wheelset);
+    if (has_table(wheel)) {
       builder.require_section(wheel);
-      from_table = tabulated(on.side);
-      on.rail_marker = builder.table(on.side, load)->nominal().X_TR.origin;
+      from_table = tabulated(wheel);
+      on.rail_marker = table_of(wheel)->nominal().X_TR.origin;
       if (on.side == Side::left) on.rail_marker.y() = -on.rail_marker.y();
     }
-    if (is_full) {
+    if (has_full(wheel)) {
       const wheelrail::Geometry geometry = builder.full_geometry(wheel);
       const wheelrail::Problem problem = to_problem(contact_input(file, wheel), geometry.round_wheel);
       on.rail_marker = vehicle::rail_marker_at_rest(geometry, problem);
-      built.full.push_back(
-          std::make_shared<vehicle::FullContact>(geometry, problem, rail_place(file, wheel.wheelset),
-                                                 std::min(full_travel(file), integration_settings(file).max_travel)));
-      built.bodies.push_back(bodies_of(geometry, file, wheel.side));
+      built.full.push_back(std::make_shared<vehicle::FullContact>(
+          geometry, problem, rail_place(file, wheel.wheelset),
+          std::min(full_travel(file), integration_settings(file).max_travel), friction_below(file, wheel)));
+      built.bodies.push_back(bodies_of(geometry, radius, wheel.side));
       on.element = built.full.back();
       if (is_chosen(wheel))
         on.element = built.chosen.emplace_back(std::make_shared<vehicle::ChosenContact>(
-            built.full.back(), from_table, choice_settings(file, wheel, load, builder.damaged_places(wheel))));
+            built.full.back(), from_table,
+            choice_settings(file, wheel, load_of(radius), builder.damaged_places(wheel))));
       else if (from_table)
         on.element = std::make_shared<vehicle::SwitchedContact>(built.full.back(), from_table, stretch_of(file, wheel));
     } else {
@@ -499,11 +558,13 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
       file.wheels, [](const io::WheelContactInput& wheel) { return wheel.model == io::ContactModelInput::full; });
   const auto easy_start = [&]() -> std::optional<vehicle::VehicleOnTrack> {
     try {
-      if (!builder.has_section(Side::left) || !builder.has_section(Side::right)) return std::nullopt;
+      if (!ranges::all_of(file.wheels, [&](const io::WheelContactInput& wheel) {
+            return builder.has_section(wheel.side, file.wheel_radius(wheel.wheelset));
+          }))
+        return std::nullopt;
       lay_rails();
       vehicle::VehicleOnTrack easy = v;
-      for (std::size_t i = 0; i < v.wheels.size(); ++i)
-        easy.wheels[i].element = mounted(tabulated(v.wheels[i].side), i);
+      for (std::size_t i = 0; i < v.wheels.size(); ++i) easy.wheels[i].element = mounted(tabulated(file.wheels[i]), i);
       return easy;
     } catch (const Error&) {  // full contacts do without
       return std::nullopt;
@@ -512,10 +573,14 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
   // Tables are made of what files name: of a shape put in its place they would know nothing.
   if (any_full && v.line && v.line->point(0.0).curvature.value != 0.0 && !store.replaced()) built.easy = easy_start();
   const bool fields = !file.fields.pitch.empty() || !file.fields.position.empty();
-  const auto damaged = [](const io::WheelContactInput& w) {
-    return w.model == io::ContactModelInput::full && w.defects;
-  };
-  if (fields && ranges::any_of(file.wheels, damaged)) built.defect_depth = builder.defect_depth();
+  std::map<double, std::shared_ptr<const DefectDepth>> depths;  // by radius
+  for (const io::WheelContactInput& wheel : file.wheels) {
+    auto& depth = built.defect_depth.emplace_back();
+    if (!fields || wheel.model != io::ContactModelInput::full || !wheel.defects) continue;
+    const auto [of_radius, is_new] = depths.try_emplace(file.wheel_radius(wheel.wheelset));
+    if (is_new) of_radius->second = builder.defect_depth(of_radius->first);
+    depth = of_radius->second;
+  }
   return built;
 }
 
@@ -529,10 +594,11 @@ void check_vehicle(const io::SimulationFile& file, SurfaceStore& store) {
   const vehicle::VehicleOnTrack vehicle = outline(file, false);
   if (file.flexible_track) RailsBelow(file, vehicle.system).below({0});
   for (const io::WheelContactInput& wheel : file.wheels) {
-    const bool full = wheel.model != io::ContactModelInput::table, changes = wheel.changes_over() || is_chosen(wheel);
-    const wheelrail::Geometry geometry = full ? builder.full_geometry(wheel) : builder.table_geometry(wheel.side);
-    if (full && changes) builder.table_geometry(wheel.side);
-    if (!full || changes) builder.require_creep_table();
+    const bool full = has_full(wheel);
+    const auto table = [&] { return builder.table_geometry(wheel.side, file.wheel_radius(wheel.wheelset)); };
+    const wheelrail::Geometry geometry = full ? builder.full_geometry(wheel) : table();
+    if (full && has_table(wheel)) table();
+    if (has_table(wheel)) builder.require_creep_table();
     builder.require_section(wheel);
     vehicle::rail_marker_at_rest(geometry, to_problem(contact_input(file, wheel), geometry.round_wheel));
   }

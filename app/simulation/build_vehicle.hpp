@@ -27,8 +27,8 @@ struct BuiltVehicle {
   std::vector<UsedBodies> bodies;  ///< by wheel, as its full contact sees them
   /// Of wheels whose contact is chosen: tables until a simulation begins them.
   std::vector<std::shared_ptr<vehicle::ChosenContact>> chosen;
-  /// Of the wheels with defects; null where there are none.
-  std::shared_ptr<const DefectDepth> defect_depth;
+  /// By wheel; null where its contact is not a full one, or it has no defects.
+  std::vector<std::shared_ptr<const DefectDepth>> defect_depth;
   double table_seconds = 0.0;  ///< spent on contact tables
   /// With contact tables at all wheels, for the start in a curve; none where that is not wanted or not possible.
   std::optional<vehicle::VehicleOnTrack> easy;
@@ -40,7 +40,7 @@ std::string wheel_name(const io::WheelContactInput& wheel);
 /// The shape of a wheel with full contact.
 io::SurfaceSource wheel_source(const io::SimulationFile& file, const io::WheelContactInput& wheel);
 
-/// Contact of a wheel as in a case file: its side and rail, whose place is mirrored for a left-hand one.
+/// Contact of a wheel as in a case file: its side, radius and rail, whose place is mirrored for a left-hand one.
 io::WheelRailCase contact_input(const io::SimulationFile& file, const io::WheelContactInput& wheel);
 
 /// Place of a wheelset along the rails at the start [m].

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -40,18 +42,29 @@ std::string energy_doubt(const vehicle::EnergyBalance& now, const vehicle::Energ
 std::vector<std::string> simulation_doubts(const io::SimulationFile& file) {
   std::vector<std::string> out;
   const io::WheelRailCase& contact = file.contact;
-  const auto look = [&](const io::SurfaceSource& source, Body body) {
-    const io::ExpectedProfile expected =
-        body == Body::wheel
-            ? io::ExpectedProfile{contact.wheelset.flange_back_position, contact.wheelset.nominal_radius, true}
-            : io::ExpectedProfile{{}, {}, contact.track.gauge_based, contact.track.cant};
-    for (std::string& doubt : source_doubts(source, body, expected))
+  const auto take = [&](std::vector<std::string> doubts) {
+    for (std::string& doubt : doubts)
       if (ranges::find(out, doubt) == out.end()) out.push_back(std::move(doubt));
   };
-  look(contact.wheel, Body::wheel);
-  if (file.other_wheel) look(*file.other_wheel, Body::wheel);
-  look(file.rail(Side::left), Body::rail);
-  look(file.rail(Side::right), Body::rail);
+  std::set<double> radii;
+  for (const io::WheelContactInput& wheel : file.wheels) radii.insert(file.wheel_radius(wheel.wheelset));
+  const auto look_at_wheel = [&](const io::SurfaceSource& source) {
+    // What a profile states of its wheel must hold for one of those that have it.
+    std::optional<std::vector<std::string>> least;
+    for (const double radius : radii) {
+      std::vector<std::string> doubts =
+          source_doubts(source, Body::wheel, {contact.wheelset.flange_back_position, radius, true});
+      if (!least || doubts.size() < least->size()) least = std::move(doubts);
+    }
+    if (least) take(*std::move(least));
+  };
+  const auto look_at_rail = [&](Side side) {
+    take(source_doubts(file.rail(side), Body::rail, {{}, {}, contact.track.gauge_based, contact.track.cant}));
+  };
+  look_at_wheel(contact.wheel);
+  if (file.other_wheel) look_at_wheel(*file.other_wheel);
+  look_at_rail(Side::left);
+  look_at_rail(Side::right);
   return out;
 }
 

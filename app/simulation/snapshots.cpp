@@ -109,9 +109,8 @@ void Snapshots::describe_scenes(io::SimulationResult& result) const {
 
 std::vector<double> Snapshots::depth_of(const Kept& kept, const Grid2& grid,
                                         const wheelrail::PairSolution& solution) const {
-  if (!built_.defect_depth || !file_.wheels[kept.wheel].defects) return {};
-  const Side side = file_.wheels[kept.wheel].side;
-  return built_.defect_depth->over(grid, solution.placement, side);
+  const auto& depth = built_.defect_depth[kept.wheel];
+  return depth ? depth->over(grid, solution.placement, file_.wheels[kept.wheel].side) : std::vector<double>();
 }
 
 void Snapshots::put_results(io::SimulationResult& result) const {

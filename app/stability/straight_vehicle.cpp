@@ -25,6 +25,11 @@ io::SimulationFile straight_vehicle(const std::filesystem::path& path, std::span
   if (file.flexible_track)
     throw Error(ErrorKind::configuration, "eigenvalues and responses of a vehicle on rails that bend are not known", {},
                 "take a lumped track: treadmark track --fit makes one");
+  if (file.contact.friction_variation.kind == io::FrictionVariation::Kind::along_track)
+    throw Error(ErrorKind::configuration,
+                "friction varies along the track (friction.along_track): eigenvalues and responses are those of a "
+                "vehicle that runs steadily, with the same friction everywhere",
+                {}, "leave it out (--set friction.along_track=[]) and say how much: friction.coefficient");
   file.torques.clear();
   file.forces.clear();
   file.spring_motions.clear();

@@ -29,6 +29,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/io/cases/shape_keys.hpp"
@@ -45,6 +46,13 @@
 namespace treadmark::app {
 
 bool is_offset_file(const std::filesystem::path& file) { return io::can_hold(file, io::kOffsetFile); }
+
+bool has_own_radius(const io::SurfaceSource& wheel) {
+  if (!wheel.parts.empty()) return ranges::any_of(wheel.parts, has_own_radius);
+  const auto* file = std::get_if<io::GeometryFile>(&wheel.geometry);
+  if (file == nullptr) return std::holds_alternative<io::SolidsInput>(wheel.geometry);
+  return io::can_hold(file->file, io::kTriangleFile | io::kSplineFile | io::kCadFile | io::kOffsetFile);
+}
 
 namespace {
 

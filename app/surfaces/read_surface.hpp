@@ -25,6 +25,10 @@ MovingSection motion_of(const io::CrossingInput& crossing);
 /// key moves along the track, which go on by design.
 std::optional<std::pair<double, double>> measured_range(const NaturalSurface& surface, const io::SurfaceSource& source);
 
+/// Whether the shape of a wheel lies about its axle as it is (triangles, splines, CAD, bodies, offsets), so that it has
+/// a radius of its own; sections lie at whatever nominal radius their wheel has.
+bool has_own_radius(const io::SurfaceSource& wheel);
+
 /// Whether the name ends like a file of offsets: .vdb .nvdb.
 bool is_offset_file(const std::filesystem::path& file);
 

@@ -72,6 +72,10 @@ MadeTable make_table(const io::Case& given, const wheelrail::Geometry& geometry,
                      const io::ContentCache* cache, const Progress& progress) {
   const auto* pair = std::get_if<io::WheelRailCase>(&given.content);
   if (!pair) throw Error(ErrorKind::configuration, "a table of forces is that of a wheel on a rail, not of a patch");
+  if (pair->friction_variation.kind == io::FrictionVariation::Kind::along_track)
+    throw Error(ErrorKind::configuration,
+                "friction varies along the track (friction.along_track), of which a table of forces knows no place",
+                given.where, "give one law, or one by inclination of the rail");
   const wheelrail::Problem prototype = prototype_of(*pair);
   const double load = load_of(*pair, request);
   vehicle::require_sensible(request.check);

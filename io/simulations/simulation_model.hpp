@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -148,7 +149,7 @@ struct SimulationFile {
   std::optional<IrregularitySpec> irregularities;  ///< none: the rails lie as the line says
   std::optional<NamedFile> irregularity_file;
   /// Bodies and settings of the contact. What the simulation itself finds (side, loads, positions, history) has no
-  /// meaning here; velocity and pitch rate are those of rolling at the speed.
+  /// meaning here; nominal radius, velocity and pitch rate are those of the leading wheelset that rolls at the speed.
   WheelRailCase contact;
   std::optional<SurfaceSource> other_wheel;  ///< shape of wheels without defects, where `contact.wheel` cannot be it
   std::optional<SurfaceSource> left_rail, right_rail;  ///< instead of `contact.rail`, which is none of them if both are
@@ -167,6 +168,12 @@ struct SimulationFile {
   const SurfaceSource& rail(Side side) const {
     const std::optional<SurfaceSource>& own = side == Side::left ? left_rail : right_rail;
     return own ? *own : contact.rail;
+  }
+  /// Nominal radius of the wheels of a wheelset, from 0 [m]. Wheelsets with that of the leading one have the very
+  /// number of `contact`.
+  double wheel_radius(int wheelset) const {
+    const double own = vehicle.wheelsets.at(static_cast<std::size_t>(wheelset)).nominal_radius;
+    return own == vehicle.wheelsets.front().nominal_radius ? contact.wheelset.nominal_radius : own;
   }
 };
 

@@ -71,7 +71,7 @@ bool ChosenContact::must_be_full(double x) const {
 double ChosenContact::longest_travel() const {
   if (!begun_) return kInfinity;
   if (full_now_ || at_ - since_ < kGoOver) return settings_.full_travel;
-  double ahead = kInfinity;
+  double ahead = table_->longest_travel();
   for (const auto& stretch : settings_.always_full)
     if (const double way = stretch.first - 1.5 * kGoOver - settings_.rail_x - at_; way > 0.0)
       ahead = std::min(ahead, way);
@@ -103,9 +103,11 @@ ContactReaction ChosenContact::evaluate(const PairMotion& motion) {
   return out;
 }
 
-/// Motions that differ little: the first two say where, then how hard, then which way forces of friction act.
+/// Motions that differ little: the first three say where, then how hard, then which way forces of friction act, and how
+/// much of it there is.
 ChosenContact::Sort ChosenContact::sort_of(const Tried& tried) const {
-  constexpr double kAside = 5e-4, kRoll = 5e-3, kYaw = 2e-3, kLoad = 0.5, kCreep = 0.05;  // [m], [rad], octaves, -
+  constexpr double kAside = 5e-4, kRoll = 5e-3, kYaw = 2e-3, kLoad = 0.5, kCreep = 0.05,
+                   kFriction = 0.05;  // [m], [rad], octaves, -
   const auto bin = [](double value, double width) { return to_whole<int>(std::floor(value / width)); };
   const PairMotion& m = tried.motion;
   Sort sort{bin(m.wheelset.y - m.rail.y, kAside), bin(m.wheelset.roll - m.rail.roll, kRoll), bin(m.wheelset.yaw, kYaw)};
@@ -117,6 +119,9 @@ ChosenContact::Sort ChosenContact::sort_of(const Tried& tried) const {
   sort[3] = bin(std::log2(normal / settings_.usual_load), kLoad);
   sort[4] = bin(tried.table.longitudinal_creep_force / normal, kCreep);
   sort[5] = bin(tried.table.lateral_creep_force / normal, kCreep);
+  FrictionLaw law;  // any, where it does not vary
+  settings_.friction.put(law, m.wheelset.x);
+  sort[6] = bin(law.static_friction(), kFriction);
   return sort;
 }
 

@@ -30,15 +30,16 @@ struct ChoiceSettings {
   double usual_load = 0.0;                             ///< of the wheel [N]; > 0
   double full_travel = 1e-3;                           ///< of a step with the full contact [m]
   std::vector<std::pair<double, double>> always_full;  ///< places along the rail, increasing [m]
-  double rail_x = 0.0;  ///< place of the axle along the rail where it has travelled nothing [m]
+  double rail_x = 0.0;     ///< place of the axle along the rail where it has travelled nothing [m]
+  FrictionAlong friction;  ///< that varies, as both contacts have it
 };
 
 /// A contact from a table where that agrees with the contact in full, in full elsewhere. Motions are sorted by place
-/// across the rail, roll, yaw, load and creep forces: in the first one of each sort, and after 10 m at the latest, the
-/// full contact is solved beside the table, which says how wrong the table is. Beyond the tolerance forces go over into
-/// those of the full contact over 50 mm, and back once the table has agreed within 0.7 of it over 0.5 m, if it did so
-/// in all motions of the sort. Where the table has no solution the full contact takes its place at once. What has been
-/// found belongs to the wheel: the same run makes the same choices.
+/// across the rail, roll, yaw, load, creep forces and friction: in the first one of each sort, and after 10 m at the
+/// latest, the full contact is solved beside the table, which says how wrong the table is. Beyond the tolerance forces
+/// go over into those of the full contact over 50 mm, and back once the table has agreed within 0.7 of it over 0.5 m,
+/// if it did so in all motions of the sort. Where the table has no solution the full contact takes its place at once.
+/// What has been found belongs to the wheel: the same run makes the same choices.
 class ChosenContact : public ContactElement {
  public:
   /// Errors: Error(configuration) without elements or with settings that make no sense.
@@ -55,7 +56,7 @@ class ChosenContact : public ContactElement {
   void restore(ByteReader& in) override;
 
  private:
-  using Sort = std::array<int, 6>;
+  using Sort = std::array<int, 7>;
   struct Tried {
     PairMotion motion;
     ContactReaction table;

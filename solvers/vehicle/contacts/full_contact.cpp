@@ -89,8 +89,8 @@ Vec3 rail_marker_at_rest(const wheelrail::Geometry& geometry, const wheelrail::P
 }
 
 FullContact::FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem problem, double rail_x,
-                         double usual_travel)
-    : problem_(std::move(problem)), rail_x_(rail_x), pair_(geometry) {
+                         double usual_travel, FrictionAlong friction)
+    : problem_(std::move(problem)), rail_x_(rail_x), friction_(std::move(friction)), pair_(geometry) {
   const Vec3 marker = rail_marker_at_rest(geometry, problem_);
   problem_.track.gauge_based = false;
   problem_.track.rail_y0 = marker.y();
@@ -109,6 +109,7 @@ bool FullContact::goes_on(const Past& past, const PairMotion& motion) const {
 }
 
 wheelrail::PairSolution FullContact::solve(const Past& past, const PairMotion& motion) {
+  friction_.put(problem_.friction, motion.wheelset.x);
   wheelrail::Problem p = problem_;
   p.state.position = motion.wheelset;
   p.state.position.x += rail_x_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "treadmark/solvers/vehicle/contact_element.hpp"
+#include "treadmark/solvers/vehicle/contacts/friction_along.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 
 namespace treadmark::vehicle {
@@ -16,9 +17,10 @@ class FullContact : public ContactElement {
  public:
   /// problem: everything but motions and forces; its regime, steady or transient, is that of rolling. rail_x: place of
   /// the axle along the rail where it has travelled nothing [m]. usual_travel: of most steps of transient rolling [m],
-  /// 0: not known; it makes them cheaper. Errors: Error(configuration).
+  /// 0: not known; it makes them cheaper. friction: that varies, in place of the problem's; steps are short against it.
+  /// Errors: Error(configuration).
   FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem problem, double rail_x = 0.0,
-              double usual_travel = 0.0);
+              double usual_travel = 0.0, FrictionAlong friction = {});
 
   ContactReaction evaluate(const PairMotion& motion) override;
   void accept() override;
@@ -55,8 +57,9 @@ class FullContact : public ContactElement {
   bool goes_on(const Past& past, const PairMotion& motion) const;
   wheelrail::PairSolution solve(const Past& past, const PairMotion& motion);
 
-  wheelrail::Problem problem_;
+  wheelrail::Problem problem_;  ///< with the friction where it was solved last
   double rail_x_;
+  FrictionAlong friction_;
   wheelrail::Pair pair_;
   Past past_;
   bool at_past_ = false;  ///< the pair is as the past left it

@@ -127,8 +127,8 @@ ContactReaction not_covered(const ContactTable& table, const RelativePlace& plac
 }  // namespace
 
 TableContact::TableContact(std::shared_ptr<const ContactTable> table, wheelrail::Side side,
-                           std::shared_ptr<const CreepTable> creep)
-    : table_(std::move(table)), creep_(std::move(creep)), side_(side) {
+                           std::shared_ptr<const CreepTable> creep, FrictionAlong friction)
+    : table_(std::move(table)), creep_(std::move(creep)), side_(side), friction_(std::move(friction)) {
   if (!table_) throw Error(ErrorKind::configuration, "a contact element has no table");
   problem_ = table_->problem();
   problem_.regime = kalker::Regime::steady;
@@ -183,6 +183,7 @@ ContactReaction TableContact::under_load(PairMotion motion, double load) {
 }
 
 ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion, const LocalContact* local) {
+  tried_ = motion.wheelset.x;
   const wheelrail::Placement now = placed(*table_, motion);
   const RelativePlace place = relative_place(table_->nominal(), now, motion);
   const ElasticContact elastic = local && local->is_at(place) ? local->at(place.z) : elastic_contact(*table_, place);
@@ -215,6 +216,7 @@ ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion, cons
 
   problem_.state.position = motion.wheelset;
   problem_.state.velocity = motion.wheelset_velocity;
+  friction_.put(problem_.friction, motion.wheelset.x);
   problem_.track.vy = motion.rail.vy, problem_.track.vz = motion.rail.vz, problem_.track.vroll = motion.rail.vroll;
   double patches = 0.0;
   for (std::size_t i = 0; i < elastic.count; ++i) {
@@ -249,11 +251,15 @@ ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion, cons
   return r;
 }
 
-void TableContact::save(ByteWriter& out) const { out.put(kMark); }
+void TableContact::save(ByteWriter& out) const {
+  out.put(kMark);
+  if (friction_.varies()) out.put(at_);
+}
 
 void TableContact::restore(ByteReader& in) {
   if (in.get<std::uint32_t>() != kMark)
     throw Error(ErrorKind::input_data, "a saved state is not that of a contact element with a table", {}, "start anew");
+  if (friction_.varies()) in.get(at_);
 }
 
 }  // namespace treadmark::vehicle

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "treadmark/analysis/damage/record.hpp"
 #include "treadmark/app/evolve/run_evolution.hpp"
@@ -317,6 +318,23 @@ TEST_F(SimulatedEvolution, SaysWhatIsWrongAndWhere) {
   const std::string rail = io::replaced(kStudy, "evolve.wheel", "evolve.rail");
   EXPECT_THAT(error(kPassage, io::replaced(rail, "distance_km", "passages")),
               HasSubstr("also used by tables of contact"));
+  // Two wheelsets of two radii, one behind the other.
+  std::string two = io::samples::kVehicle;
+  for (const auto& [from, to] :
+       {std::pair{"position_m = [0, 0, -1]", "positions_m = [[0.9, 0, -1], [-0.9, 0, -1]]"},
+        {"position_m = [0, 0, -0.46]", "positions_m = [[0.9, 0, -0.46], [-0.9, 0, -0.44]]"},
+        {"between = [\"axle\", \"mass\"]\nat_m = [[0, -1, -0.46], [0, 1, -0.46]]",
+         "places = [{ between = [\"axle1\", \"mass1\"], at_m = [[0.9, -1, -0.46], [0.9, 1, -0.46]] },\n"
+         "{ between = [\"axle2\", \"mass2\"], at_m = [[-0.9, -1, -0.44], [-0.9, 1, -0.44]] }]"},
+        {"between = [\"axle\", \"mass\"]\nat_m = [[0, 0, -0.6]]",
+         "places = [{ between = [\"axle1\", \"mass1\"], at_m = [[0.9, 0, -0.6]] },\n"
+         "{ between = [\"axle2\", \"mass2\"], at_m = [[-0.9, 0, -0.6]] }]"},
+        {"body = \"axle\"\nnominal_radius_mm = 460",
+         "body = \"axle1\"\nnominal_radius_mm = 460\n[[wheelsets]]\nbody = \"axle2\"\nnominal_radius_mm = 440"}})
+    two = io::replaced(two, from, to);
+  folder_.write("vehicle.toml", two);
+  EXPECT_THAT(passage("[case]", "[[simulation.wheels]]\nwheelset = 2\nside = \"right\"\ncontact = \"full\"\n[case]"),
+              HasSubstr("wheels of 460 mm and of 440 mm evolve"));
 }
 
 }  // namespace

@@ -5,21 +5,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
+#include <iterator>
+#include <ostream>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/app/simulation/contact_tables.hpp"
 #include "treadmark/app/simulation/run_simulation.hpp"
 #include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/simulation/sample_simulation.hpp"
 
-// Rails of their own on both sides, and rails that vary along the track.
+// Rails of their own on both sides, and rails and friction that vary along the track.
 
 namespace treadmark::testing {
 namespace {
@@ -345,6 +353,151 @@ TEST_F(RailsOfSimulations, TablesOnRailsThatVaryAreRefused) {
   EXPECT_THAT(refusal(), HasSubstr("the rail below ws1_right and that of its table lie 0.628 mm apart"));
   write(begin + own + crossing("simulation.right_rail") + crossing("simulation.table_rail"));
   EXPECT_THAT(refusal(), HasSubstr("simulation.table_rail must not vary"));
+}
+
+/// A key of case files that says something for places along the track, in a simulation of 0.14 m.
+struct AlongTrack {
+  const char *key, *contact;
+  std::string tables;       ///< that say it
+  const char *change, *of;  ///< another value, and the channel of the right wheel that shows it
+  double least;             ///< that this channel changes by
+  double place;             ///< up to which nothing changes, a little before it [m]
+};
+std::ostream& operator<<(std::ostream& out, const AlongTrack& row) { return out << row.key << ' ' << row.contact; }
+
+std::string on_60e1(const std::string& defects) { return "[rail]\nshape.standard = \"60E1\"\n" + defects + '\n'; }
+
+/// 8 kN m on the axle, 8.7 kN at each wheel, under 53 kN.
+const std::string kDriven =
+                      "[[simulation.torques]]\nwheelset = 1\ntime_s = [0, 0.004]\ntorque_N_m = [0, 8000]\n"
+                      "reaction = \"ground\"\n" +
+                      on_60e1(""),
+                  kFrictionAlong =
+                      "[[friction.along_track]]\ns_mm = 0\ncoefficient = 0.3\n"
+                      "[[friction.along_track]]\ns_mm = 60\ncoefficient = 0.3\n"
+                      "[[friction.along_track]]\ns_mm = 75\ncoefficient = 0.3\n";
+const char* const kSlippery = "friction.along_track.2.coefficient=0.05";
+
+const AlongTrack kAlongTrack[] = {
+    {"friction.along_track", "full", kDriven + kFrictionAlong, kSlippery, "Tx_N", 1e3, 0.054},
+    {"friction.along_track", "table", kDriven + kFrictionAlong, kSlippery, "Tx_N", 1e3, 0.054},
+    {"friction.along_track", "auto", kDriven + kFrictionAlong, kSlippery, "Tx_N", 1e3, 0.054},
+    {"rail.squats", "full", on_60e1("squats = [{ length_mm = 30, width_mm = 60, depth_mm = 0.1, x_center_mm = 90 }]"),
+     "rail.squats.0.depth_mm=0.2", "Q_N", 500.0, 0.06},
+    {"rail.spalls", "full",
+     on_60e1("spalls = [{ length_mm = 30, width_mm = 60, depth_mm = 0.1, edge_mm = 8, x_center_mm = 90 }]"),
+     "rail.spalls.0.depth_mm=0.2", "Q_N", 500.0, 0.06},
+    {"rail.gauge_corner_collapses", "full",
+     on_60e1("gauge_corner_collapses = [{ length_mm = 30, depth_mm = 0.1, width_mm = 40, x_center_mm = 90, "
+             "y_start_mm = -30, towards = \"+y\" }]"),
+     "rail.gauge_corner_collapses.0.depth_mm=0.2", "Q_N", 500.0, 0.06},
+    {"rail.corrugations", "full",
+     on_60e1("corrugations = [{ x_start_mm = 70, x_end_mm = 400, ramp_mm = 10, waves = [{ wavelength_mm = 40, "
+             "amplitude_um = 20 }] }]"),
+     "rail.corrugations.0.waves.0.amplitude_um=40", "Q_N", 500.0, 0.055},
+    {"rail.flattened_heads", "full",
+     on_60e1("flattened_heads = [{ x_start_mm = 70, x_end_mm = 400, ramp_mm = 40, depth_mm = 0.5 }]"),
+     "rail.flattened_heads.0.depth_mm=0.8", "Q_N", 500.0, 0.055},
+    // A plane that sinks: the wheel touches 0.36 mm below the top, which it reaches at 97 mm, or at 82 mm.
+    {"rail.milling_paths", "full",
+     on_60e1(
+         "milling_paths = [{ start_y_mm = -40, section = [{ length_mm = 80 }], stations = [{ x_mm = -100, z_mm = -2 "
+         "}, { x_mm = 200, z_mm = 1.6 }] }]"),
+     "rail.milling_paths.0.stations.1.z_mm=1.9", "Q_N", 500.0, 0.06},
+    {"rail.shape.crossing_x_mm", "full",
+     "[rail.shape]\nstandard = \"60E1\"\ncrossing = \"wing\"\ncrossing_x_mm = 85\ncrossing_rounding_mm = 30\n"
+     "crossing_slope = 0.01\n",
+     "rail.shape.crossing_slope=0.04", "y_cp_m", 2e-4, 0.055},
+    {"rail.parts", "full",
+     "[[rail.parts]]\nstandard = \"60E1\"\ncrossing = \"wing\"\ncrossing_x_mm = 85\ncrossing_rounding_mm = 30\n"
+     "crossing_slope = 0.01\n[[rail.parts]]\nstandard = \"60E1\"\nz_mm = 20\n",
+     "rail.parts.0.crossing_slope=0.04", "y_cp_m", 2e-4, 0.055}};
+
+/// Straight between the instants.
+double value_at(const io::SimulationResult& history, const std::string& channel, double x) {
+  const std::vector<double> places = column_values(history, column_index(history, "x_m")),
+                            values = column_values(history, column_index(history, channel));
+  const auto behind = std::clamp<std::ptrdiff_t>(std::upper_bound(places.begin(), places.end(), x) - places.begin(), 1,
+                                                 std::ssize(places) - 1);
+  const auto i = static_cast<std::size_t>(behind);
+  return std::lerp(values[i - 1], values[i], (x - places[i - 1]) / (places[i] - places[i - 1]));
+}
+
+class Passages : public RailsOfSimulations {
+ protected:
+  /// tables: beside what all have.
+  void write_passage(const std::string& contact, const std::string& tables) const {
+    input.write("s.toml", "[simulation]\nvehicle = \"vehicle.toml\"\nspeed_m_s = 5\ndistance_m = 0.14\ncontact = \"" +
+                              contact + "\"\nleft_rail.shape.standard = \"60E1\"\n" + kCommon +
+                              "[track]\ngauge_mm = 1435\n\n" + tables);
+  }
+  io::SimulationResult passage(const std::vector<std::string>& overrides = {}) const {
+    const io::SimulationFile file = io::read_simulation_file(input.path("s.toml"), overrides);
+    static app::ContactTables tables;
+    app::SurfaceStore store;
+    app::SimulationOptions options;
+    options.tables = &tables;
+    io::SimulationResult r = app::run_simulation(file, store, options, {});
+    EXPECT_EQ(r.status, "complete") << r.message;
+    return r;
+  }
+};
+
+class AlongTheTrack : public Passages, public ::testing::WithParamInterface<AlongTrack> {};
+
+TEST_P(AlongTheTrack, AChangeShowsFromItsPlaceOn) {
+  const AlongTrack& row = GetParam();
+  write_passage(row.contact, row.tables);
+  const io::SimulationResult given = passage(), changed = passage({row.change});
+  const std::string channel = std::string("ws1_right.") + row.of;
+  double before = 0.0, behind = 0.0;
+  for (double x = 0.0; x < 0.14; x += kMilli) {
+    double& most = x < row.place ? before : behind;
+    most = std::max(most, std::abs(value_at(changed, channel, x) - value_at(given, channel, x)));
+  }
+  EXPECT_GT(behind, row.least);
+  EXPECT_LT(before, 0.01 * behind);
+}
+
+INSTANTIATE_TEST_SUITE_P(Keys, AlongTheTrack, ::testing::ValuesIn(kAlongTrack));
+
+/// Whether a key says where along the track something is.
+bool says_place(const io::KeyInfo& key) {
+  const std::string_view name = std::string_view(key.path).substr(key.path.rfind('.') + 1);
+  return name == "s_mm" || name == "x_mm" || name == "x_center_mm" || name == "x_start_mm" || name == "crossing_x_mm" ||
+         ranges::any_of(key.elements, says_place);
+}
+
+TEST(PlacesAlongTheTrack, AreAllTriedInSimulations) {
+  const std::set<std::string> elsewhere{"rail.shape.solids"};  // where whole bodies lie
+  int found = 0;
+  for (const io::CaseKey& key : io::case_keys()) {
+    const std::string& path = key.info.path;
+    if (!(path.starts_with("rail.") || path.starts_with("friction.")) || !says_place(key.info)) continue;
+    ++found;
+    const bool tried = ranges::any_of(kAlongTrack, [&](const AlongTrack& row) { return path == row.key; });
+    EXPECT_TRUE(tried || elsewhere.contains(path)) << path;
+  }
+  EXPECT_GT(found, 5);
+}
+
+/// The torque goes into the rails while friction carries it; where it does not, the wheels spin and take mu Q.
+TEST_F(Passages, FrictionBoundsTheForcesOfEveryWheelWhereItStands) {
+  constexpr double kAxleForce = 8000.0 / 0.46;  // [N]
+  for (const char* contact : {"full", "table"}) {
+    SCOPED_TRACE(contact);
+    write_passage(contact, kDriven + kFrictionAlong);
+    for (const double start : {0.0, 0.02}) {  // of the axle along the rails
+      const io::SimulationResult r = passage({kSlippery, fmt::format("simulation.rail_start_m={}", start)});
+      for (const char* wheel : {"", "ws1_right."}) {
+        const auto at = [&](const char* channel, double place) {
+          return value_at(r, std::string(wheel) + channel, place - start);
+        };
+        EXPECT_NEAR(std::abs(at("Tx_N", 0.056)), 0.5 * kAxleForce, 0.02 * kAxleForce);
+        EXPECT_NEAR(std::abs(at("Tx_N", 0.115)), 0.05 * at("Q_N", 0.115), 0.003 * at("Q_N", 0.115));
+      }
+    }
+  }
 }
 
 TEST_F(RailsOfSimulations, WheelsThatAreNotRoundDoNotChangeOver) {

@@ -64,6 +64,10 @@ TEST(StabilityCommand, RefusesWhatItCannotDo) {
   const ProgramResult full = stability_of({});
   EXPECT_EQ(full.status, 2);
   EXPECT_THAT(full.err, AllOf(HasSubstr("ws1_right has full contact"), HasSubstr("simulation.wheels=[]")));
+  const ProgramResult slippery = stability_of(
+      {"--set", "simulation.wheels=[]", "--set", "friction.along_track=[{ s_mm = 0, coefficient = 0.3 }]"});
+  EXPECT_EQ(slippery.status, 2);
+  EXPECT_THAT(slippery.err, HasSubstr("friction varies along the track"));
   EXPECT_THAT(stability_of({"--json", kFlat}).err, HasSubstr("would overwrite"));
 }
 

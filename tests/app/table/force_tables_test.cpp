@@ -247,6 +247,7 @@ TEST(ForceTables, WhatTablesAreNotForIsRefused) {
   refused(std::string(kCase).replace(kCase.find("vertical_force_N = 80e3"), 23, "z_mm = 0.1"), request, "load_kN");
   refused("[patch]\nmx = 4\nmy = 4\n", request, "");
   refused("track.curvature_per_m = 0.003\n" + kCase, request, "leave the curve");
+  refused(kCase + "[[friction.along_track]]\ns_mm = 0\ncoefficient = 0.3\n", request, "knows no place");
   // Before minutes are spent on nodes.
   const auto refused_at_once = [&](auto change, const char* why) {
     TableRequest wrong = small_request();

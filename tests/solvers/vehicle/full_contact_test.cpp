@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -81,6 +82,29 @@ TEST(FullContact, IsTheSolutionOfAPair) {
   EXPECT_LT((r.on_wheelset.force + force).norm(), 1e-6 * load);
   EXPECT_LT((r.on_rail.moment - about_rail).norm(), 1e-6 * load);
   EXPECT_LT((r.on_wheelset.moment + about_axle).norm(), 1e-6 * load);
+}
+
+TEST(FullContact, FrictionIsThatOfItsPlaceAlongTheRail) {
+  FrictionLaw high, low;
+  high.kinetic = 0.3, low.kinetic = 0.05;
+  FullContact element(bodies(false), prototype(wheelrail::Side::left, kalker::Regime::steady), 0.2, 0.0,
+                      {{0.0, 0.5, 0.55}, {high, high, low}, 0.2});
+  PairMotion m = rolling(20.0, 2.8e-4);
+  m.wheelset_velocity.pitch *= 0.9;  // slides all over: friction carries what it can
+  ContactReaction r;
+  for (const auto& [travelled, coefficient] : {std::pair{0.1, 0.3}, {0.34, 0.1}, {0.6, 0.05}, {0.325, 0.175}}) {
+    m.wheelset.x = travelled;
+    r = element.evaluate(m);
+    ASSERT_EQ(r.status, Status::ok) << r.message;
+    const double bound = coefficient * r.normal_force;
+    EXPECT_NEAR(std::hypot(r.longitudinal_creep_force, r.lateral_creep_force), bound, 0.01 * bound) << travelled;
+  }
+  // What was accepted is solved again with the friction that it had.
+  element.accept();
+  m.wheelset.x = 5.0;
+  element.evaluate(m);
+  const wheelrail::PairSolution again = element.repeat(element.accepted());
+  EXPECT_LT((again.load.track.force - r.on_rail.force).norm(), 1e-9 * r.normal_force);
 }
 
 TEST(FullContact, SidesAreMirrorImages) {

@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/core/error.hpp"
@@ -775,6 +776,64 @@ TEST(TableContact, SavedStatesAreTheirOwn) {
   EXPECT_NO_THROW(element.restore(own));
   EXPECT_TRUE(own.at_end());
   EXPECT_THROW(element.restore(foreign), Error);
+}
+
+FrictionLaw coulomb(double coefficient) {
+  FrictionLaw law;
+  law.kinetic = coefficient;
+  return law;
+}
+
+TEST(TableContact, FrictionIsThatOfItsPlaceAlongTheRail) {
+  // A wheel that does not turn slides all over: friction carries what it can.
+  PairMotion locked = pressed(*standard_table(), 0.0, 1.2e-4);
+  locked.wheelset_velocity.x = kSpeed;
+  const FrictionAlong falling{{0.0, 0.5, 0.55}, {coulomb(0.3), coulomb(0.3), coulomb(0.05)}, 0.2};
+  for (const Side side : {Side::left, Side::right}) {
+    TableContact element(standard_table(), side, nullptr, falling);
+    for (const auto& [travelled, coefficient] :
+         {std::pair{-3.0, 0.3}, {0.3, 0.3}, {0.325, 0.175}, {0.34, 0.1}, {0.35, 0.05}, {9.0, 0.05}}) {
+      locked.wheelset.x = travelled;
+      const ContactReaction r = element.evaluate(locked);
+      ASSERT_EQ(r.status, Status::ok);
+      const double bound = coefficient * r.normal_force;
+      EXPECT_NEAR(std::hypot(r.longitudinal_creep_force, r.lateral_creep_force), bound, 0.01 * bound) << travelled;
+    }
+  }
+}
+
+TEST(TableContact, StepsSeeAShortPlaceOfOtherFriction) {
+  constexpr double kBegin = 0.48, kDeepest = 0.49, kEnd = 0.5, kRailX = 0.2;
+  const FrictionAlong dip{{kBegin, kDeepest, kEnd}, {coulomb(0.3), coulomb(0.1), coulomb(0.3)}, kRailX};
+  for (double start = 0.0; start < 0.3; start += 0.0031) {
+    double x = start, least = 0.3;
+    while (std::isfinite(dip.longest_travel(x)) && x < 1.0) {
+      ASSERT_GT(dip.longest_travel(x), 0.0);
+      x += dip.longest_travel(x);
+      FrictionLaw law;
+      dip.put(law, x);
+      least = std::min(least, law.kinetic);
+    }
+    const bool ahead = start + kRailX < kDeepest;
+    EXPECT_LE(ahead ? least : 0.0, 0.2 + 1e-12) << start;
+  }
+  // Places that no contact tells apart do not stop a vehicle.
+  const FrictionAlong jump{{0.3, 0.3 + 1e-9, 1.0}, {coulomb(0.3), coulomb(0.1), coulomb(0.1)}};
+  EXPECT_GE(jump.longest_travel(0.3 - 1e-9), 1e-3);
+
+  PairMotion m = rolling(pressed(*standard_table(), 0.0, 1.2e-4));
+  m.wheelset.x = 0.27;
+  TableContact element(standard_table(), Side::right, nullptr, dip), other = element;
+  element.evaluate(m);
+  element.accept();
+  EXPECT_NEAR(element.longest_travel(), 0.01 + 0.005, 1e-12);
+  ByteWriter state;
+  element.save(state);
+  ByteReader in(state.bytes());
+  other.restore(in);
+  EXPECT_TRUE(in.at_end());
+  EXPECT_EQ(other.longest_travel(), element.longest_travel());
+  EXPECT_FALSE(std::isfinite(TableContact(standard_table(), Side::right).longest_travel()));
 }
 
 TEST(TableContact, WrongInputIsRefused) {
