@@ -40,6 +40,17 @@ class BrokenLine {
     return x >= x_.back() ? y_.back() : at(x);
   }
 
+  /// The integral of held_at over a stretch; places that increase. 0 for to <= from.
+  double held_integral(double from, double to) const {
+    double sum = 0.0;
+    auto next = std::upper_bound(x_.begin(), x_.end(), from);
+    for (double low = from, high = to; low < to; low = high) {
+      high = next == x_.end() ? to : std::min(*next++, to);
+      sum += 0.5 * (high - low) * (held_at(low) + held_at(high));
+    }
+    return sum;
+  }
+
   /// The integral over a piece from its begin to x.
   double integral(std::size_t piece, double x) const {
     const double t = x - x_[piece];

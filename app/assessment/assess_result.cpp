@@ -125,9 +125,15 @@ void add_spectra(AssessedRun& run) {
   }
 }
 
+/// Results of older versions do not have all of them.
+double static_or(const io::SimulationResult& result, const char* name, double otherwise) {
+  const auto found = ranges::find(result.statics, name, &io::NamedValue::name);
+  return found == result.statics.end() ? otherwise : found->value;
+}
+
 /// Means over the time in a section, sides of curves alike. NaN without a line, or where the record has no instant.
 double cant_deficiency_in(const io::SimulationResult& result, const AssessmentSection& section) {
-  constexpr double kBase = 1.5, kGravity = 9.81;
+  const double base = static_or(result, kCantBaseName, 1.5), gravity = static_or(result, kGravityName, 9.81);
   const auto column = [&](const char* name) {
     return ranges::find(result.columns, name, &io::HistoryColumn::name) - result.columns.begin();
   };
@@ -142,7 +148,7 @@ double cant_deficiency_in(const io::SimulationResult& result, const AssessmentSe
   for (std::size_t row = 1; row < result.rows(); ++row) {
     if (value(row, place) < section.from || value(row, place) > section.to) continue;
     const double v = value(row, speed), step = value(row, time) - value(row - 1, time);
-    sum += step * (kBase / kGravity * v * v * value(row, curvature) - value(row, cant));
+    sum += step * (base / gravity * v * v * value(row, curvature) - value(row, cant));
     duration += step;
   }
   return duration > 0.0 ? std::fabs(sum) / duration : measures::kUnknown;
@@ -162,6 +168,10 @@ void add_doubts(AssessedRun& run) {
         ranges::find(run.result->columns, kCurvature, &io::HistoryColumn::name) == run.result->columns.end())
       run.doubts.push_back(fmt::format("section {}: the history has no {}, limits by radius are those of a straight",
                                        section.name, kCurvature));
+  if (ranges::any_of(run.cant_deficiency, [](double d) { return std::isfinite(d); }) &&
+      ranges::find(run.result->statics, kCantBaseName, &io::NamedValue::name) == run.result->statics.end())
+    run.doubts.push_back(
+        "cant deficiencies are those of a base of 1.5 m and of 9.81 m/s2: the result of an older version says neither");
   std::map<measures::AssessedStatus, std::pair<std::size_t, std::string>> counts;
   for (const measures::Assessed& one : run.quantities)
     if (one.status != measures::AssessedStatus::ok) {

@@ -27,13 +27,16 @@ struct ChannelSpectrum {
 bool has_level(const std::string& unit);
 double acceleration_level(double rms);
 
+/// Static values of runs on a line, by which cant deficiencies are found.
+inline constexpr const char *kCantBaseName = "line.cant_base_m", *kGravityName = "line.gravity_m_s2";
+
 /// What a run says against limits.
 struct AssessedRun {
   std::string name;
   std::shared_ptr<const io::SimulationResult> result;
   AssessmentRequest request;  ///< with its sections
   std::vector<measures::Assessed> quantities;
-  std::vector<double> cant_deficiency;  ///< mean of each section, for a base of 1.5 m [m]; NaN: no line in the history
+  std::vector<double> cant_deficiency;  ///< mean of each section, by the line's base [m]; NaN: no line in the history
   std::vector<ChannelSpectrum> spectra;
   std::vector<std::string> doubts;
 

@@ -127,12 +127,12 @@ void HistoryRecord::add_line(bool irregular) {
   const auto now = [this] { return simulation_->state().time; };
   const auto line = vehicle_.line;
   add("line.speed_m_s", "m/s", "speed of the vehicle", [=] { return line->travel(now()).speed; });
-  if (line->setup().free_run) {
+  if (line->setup().free_run || vehicle_.system.free_along)
     add("line.mean_speed_m_s", "m/s", "mean speed of all masses",
         [this] { return vehicle_.mean_speed(simulation_->state()); });
+  if (line->setup().free_run)
     add("line.gradient", "1", "rise over length at the vehicle's x = 0",
         [=] { return gradient_at(*line->setup().free_run, line->point(now()).distance); });
-  }
   if (line->setup().path) {
     add("line.place_m", "m", "place of the vehicle's x = 0 on the line", [=] { return line->point(now()).distance; });
     add("line.curvature_1_m", "1/m", "of the line there, positive to the right",
@@ -404,6 +404,14 @@ void HistorySummary::note_choices() {
   at_ = x;
 }
 
+void HistorySummary::note_speed() {
+  const vehicle::VehicleOnTrack& v = simulation_.vehicle();
+  if (!v.system.free_along) return;
+  const Travel travel = v.travel(simulation_.state().time);
+  const OtherSpeed now{travel.distance, v.mean_speed(simulation_.state()), travel.speed};
+  if (is_another_speed(now.mean, now.wanted) && now.share() > other_speed_.share()) other_speed_ = now;
+}
+
 void HistorySummary::note() {
   const vehicle::ContactReaction& r = simulation_.reactions()[watched_];
   const double time = simulation_.state().time, q = r.on_rail.force.z();
@@ -420,6 +428,7 @@ void HistorySummary::note() {
   smaller(ty_min_, r.lateral_creep_force);
   larger(pmax_, r.max_pressure);
   if (r.doubts > 0) ++doubtful_;
+  note_speed();
   note_choices();
   if (!begun_) at_rest_ = q;
   begun_ = true;
@@ -498,6 +507,7 @@ void HistorySummary::save(ByteWriter& out) const {
   out.put(doubtful_);
   for (const Extreme* e : {&highest_, &lowest_, &ty_max_, &ty_min_, &pmax_}) out.put(e->value), out.put(e->time);
   out.put(at_);
+  for (const double value : {other_speed_.place, other_speed_.mean, other_speed_.wanted}) out.put(value);
   for (const Chosen& c : chosen_) {
     out.put(c.is_full);
     for (const double value : {c.way, c.full, c.square, c.worst, c.worst_wear}) out.put(value);
@@ -512,6 +522,7 @@ void HistorySummary::restore(ByteReader& in) {
   in.get(doubtful_);
   for (Extreme* e : {&highest_, &lowest_, &ty_max_, &ty_min_, &pmax_}) in.get(e->value), in.get(e->time);
   in.get(at_);
+  for (double* value : {&other_speed_.place, &other_speed_.mean, &other_speed_.wanted}) in.get(*value);
   for (Chosen& c : chosen_) {
     in.get(c.is_full);
     for (double* value : {&c.way, &c.full, &c.square, &c.worst, &c.worst_wear}) in.get(*value);

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -71,6 +72,14 @@ struct ContactChange {
   bool full = false;
 };
 
+/// Where vehicles run at another speed than their frames.
+struct OtherSpeed {
+  double place = 0.0;               ///< distance travelled [m]
+  double mean = 0.0, wanted = 0.0;  ///< of all masses, of the frames [m/s]; 0: nowhere
+  /// What is between them over the one that is wanted.
+  double share() const { return wanted > 0.0 ? std::abs(mean - wanted) / wanted : 0.0; }
+};
+
 /// Numbers that sum up a simulation: largest and least forces of the watched wheel, where and when, energies and
 /// counts. Every instant counts that is noted, whether it is written down or not. Not thread-safe.
 class HistorySummary {
@@ -86,6 +95,8 @@ class HistorySummary {
   static std::vector<std::string> names(const io::SimulationFile& file);
   /// In the order of time.
   const std::vector<ContactChange>& changes() const { return changes_; }
+  /// Where it is most, of vehicles that are free along the track.
+  const OtherSpeed& other_speed() const { return other_speed_; }
 
   void save(ByteWriter& out) const;
   /// Errors: Error(input_data) where bytes end too early.
@@ -104,6 +115,7 @@ class HistorySummary {
     double worst = 0.0, worst_wear = 0.0;  ///< errors where the table counts
   };
   void note_choices();
+  void note_speed();
   struct Row;
   static std::vector<Row> rows(bool has_pressure);
   double turnover() const;
@@ -116,6 +128,7 @@ class HistorySummary {
   double at_ = 0.0;            ///< distance travelled [m]
   std::vector<Chosen> chosen_;
   std::vector<ContactChange> changes_;
+  OtherSpeed other_speed_;
   Extreme highest_, lowest_, ty_max_, ty_min_, pmax_;
 };
 

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/assessment/assess_result.hpp"
 #include "treadmark/app/simulation/history_record.hpp"
 #include "treadmark/app/simulation/result_head.hpp"
 #include "treadmark/app/simulation/simulation_outputs.hpp"
@@ -138,13 +139,18 @@ class Run {
   vehicle::Equilibrium balance() {
     const Stopwatch watch(times_.equilibrium_s);
     vehicle::Equilibrium e = vehicle::find_equilibrium(built_.vehicle, {}, built_.easy ? &*built_.easy : nullptr);
-    if (e.report.status != Status::ok)
-      throw Error(ErrorKind::numerical, e.report.message, {},
-                  built_.vehicle.line && built_.vehicle.line->setup().path
-                      ? "let the vehicle start on a straight in front of the curve (layout.start_m)"
-                      : vehicle::kNoEquilibriumAdvice);
+    if (e.report.status != Status::ok) throw Error(ErrorKind::numerical, e.report.message, {}, no_balance_advice());
     result_.message = e.report.message;
     return e;
+  }
+
+  const char* no_balance_advice() const {
+    if (!file_.train.empty())
+      return "let a train start on a straight at constant speed and gradient, with torques and forces that grow from "
+             "0: where couplers have free play each vehicle must be in balance by itself";
+    return built_.vehicle.line && built_.vehicle.line->setup().path
+               ? "let the vehicle start on a straight in front of the curve (layout.start_m)"
+               : vehicle::kNoEquilibriumAdvice;
   }
 
   void say_if_unstable() {
@@ -180,6 +186,10 @@ class Run {
       add(fmt::format("wheelset{}.load_N", set + 1), built_.vehicle.system.wheelset_load[set], "N",
           "weight that the two wheels carry");
     add("residual", equilibrium_.residual, "1", "largest force out of balance over a wheelset's load");
+    if (const auto& line = built_.vehicle.line; line && line->setup().path) {
+      add(kCantBaseName, line->setup().base, "m", "over which cant is an angle");
+      add(kGravityName, line->setup().gravity, "m/s2", "acceleration of gravity");
+    }
   }
 
   wheelrail::PhaseTimes contact_times() const {
@@ -277,17 +287,17 @@ class Run {
     result_.snapshots.git = result_.git;
   }
 
-  /// The frames of a free run travel at the speed of a point mass: what curves and hunting take comes on top.
+  /// Frames travel at the speed of the file, or of a point mass: what curves and hunting take comes on top where
+  /// nothing holds the vehicles to them.
   std::string speed_doubt() const {
-    constexpr double kDoubtful = 0.01;
-    const vehicle::VehicleOnTrack& v = built_.vehicle;
-    if (!file_.free_run) return {};
-    const double speed = v.travel(simulation_->state().time).speed, mean = v.mean_speed(simulation_->state());
-    if (!(std::abs(mean - speed) > kDoubtful * speed)) return {};
+    const OtherSpeed& most = summary_->other_speed();
+    if (!(most.wanted > 0.0)) return {};
     return fmt::format(
-        "at the end the train runs at {:.4g} m/s, not at the {:.4g} m/s that torques, gradients and resistance give: "
-        "wheels take the rest, and places on the line are off by it",
-        mean, speed);
+        "the vehicles do not keep their speed: at x = {:.4g} m they run at {:.4g} m/s, not at the {:.4g} m/s that {}: "
+        "what wheels take makes the difference, and places on the line are off by it",
+        most.place, most.mean, most.wanted,
+        file_.free_run ? "torques, gradients and resistance give"
+                       : "the file wants, as nothing holds them along the track (simulation.free_run drives them)");
   }
 
   void keep_checkpoint() {

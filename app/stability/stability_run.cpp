@@ -9,6 +9,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/model/vehicle/train.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -33,6 +34,11 @@ StabilityRun run_stability(const StabilityRequest& request, const Progress& prog
   settings.speeds = speeds_of(request);
   settings.speed_tolerance = request.tolerance;
   io::SimulationFile file = straight_vehicle(request.file, request.overrides);
+  if (request.falling && runs_free(file.vehicle))
+    throw Error(
+        ErrorKind::configuration,
+        "--falling slows the frames of the vehicles down, not these vehicles: nothing holds them along the track",
+        {file.path.string()}, "take one vehicle whose car is not free in x, or leave --falling out");
   run.title = file.title.empty() ? file.vehicle.name : file.title;
   run.notes = file.notes;
   file.layout.reset();

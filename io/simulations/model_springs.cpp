@@ -140,6 +140,7 @@ void check_friction(const TableOf<DryFrictionSpec>& part, const DryFrictionSpec&
   if (ways > 1 && friction.coefficient_back)
     part.refuse(&F::coefficient_back,
                 fmt::format("{} belongs to friction in one direction", part.path_of(&F::coefficient_back)));
+  part.go_with(&F::load_share, &F::load_of);
   if (!(friction.normal_force > 0.0) && part.find(&F::load_of) == nullptr)
     part.fail(fmt::format("{}: nothing presses it", part.path()), "give normal_force_N, or load_of");
 }
@@ -237,6 +238,8 @@ std::vector<AirSpringSpec> read_air_springs(const TableReader& document, const s
       document, bodies,
       {"air_springs", "air springs", air_spring_table_keys(), air_spring_place_keys(), air_spring_keys()},
       [](const TableOf<A>& part, const A& air) {
+        part.go_with(&A::orifice, &A::reservoir);
+        part.go_with(&A::loss, &A::reservoir);
         if (!(air.reservoir > 0.0)) return;
         part.need(&A::orifice);
         part.need(&A::loss);

@@ -209,6 +209,7 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   result.contact.discretisation.choose_dx = result.contact.discretisation.choose_ds = false;
   if (const auto table = line_table(document, "layout", layout_keys())) read_layout(*table, result);
   read_free_run(simulation, result);
+  check_speeds(simulation, result);
   if (const auto table = line_table(document, "irregularities", irregularity_keys()))
     read_irregularities(*table, name.parent_path(), result);
   if (const auto table = line_table(document, "assessment", assessment_keys()))

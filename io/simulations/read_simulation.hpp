@@ -43,6 +43,9 @@ void read_settings(const SimulationTable& simulation, SimulationFile& out);
 void read_train(const SimulationTable& simulation, const std::filesystem::path& folder, SimulationFile& out);
 /// [simulation.free_run]: the speeds; everything that drives and brakes out.vehicle is set, and out.start.
 void read_free_run(const SimulationTable& simulation, SimulationFile& out);
+/// Refuses speeds that vehicles which run free do not keep under torques and forces along x: their frames would run
+/// away from them. All of file is set.
+void check_speeds(const SimulationTable& simulation, const SimulationFile& file);
 /// [simulation.fields].
 FieldRequests read_fields(const SimulationTable& simulation);
 /// What [simulation] says of the history; out.vehicle and out.settings are set.

@@ -10,6 +10,7 @@
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/read_vehicle.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
+#include "treadmark/model/vehicle/train.hpp"
 
 namespace treadmark::io {
 
@@ -28,14 +29,14 @@ std::vector<double> increasing(const TableOf<Root>& table, std::vector<double> R
   return values;
 }
 
-/// Two lists of the same length, the first one increasing.
+/// Two lists of the same length, the first one increasing. of: what x is, "time".
 template <class Root>
 void check_points(const TableOf<Root>& table, const Root& root, std::vector<double> Root::*x,
-                  std::vector<double> Root::*y) {
+                  std::vector<double> Root::*y, std::string_view of = "time") {
   const std::size_t xs = increasing(table, x, root).size(), ys = (root.*y).size();
   if (xs == 0 || xs != ys)
     table.refuse(y, fmt::format("{} has {} values, {} has {}", table.path_of(x), xs, table.path_of(y), ys),
-                 "give one for each time");
+                 fmt::format("give one for each {}", of));
 }
 
 SpeedProfile read_profile(const SimulationTable& simulation, double speed) {
@@ -64,6 +65,43 @@ void check_wheelset(const TableOf<Root>& table, const Root& root, std::size_t wh
                  fmt::format("{} = {}, but the vehicle has {} wheelset{}", table.path_of(&Root::wheelset),
                              root.wheelset + 1, wheelsets, wheelsets == 1 ? "" : "s"),
                  "wheelsets count from 1, the leading one");
+}
+
+/// A motor hangs on its own vehicle, and not on the axle that it turns.
+void check_reaction(const TableOf<AxleTorque>& table, const AxleTorque& torque, const VehicleModel& vehicle) {
+  using T = AxleTorque;
+  std::vector<std::string> names{kGround};
+  for (const BodySpec& body : vehicle.bodies) names.push_back(body.name);
+  check_name("body", torque.reaction, names, table.need(&T::reaction).where);
+  if (torque.reaction == kGround) return;
+  const auto body = [&](const std::string& name) { return ranges::find(vehicle.bodies, name, &BodySpec::name); };
+  const std::string& axle = vehicle.wheelsets[static_cast<std::size_t>(torque.wheelset)].body;
+  if (torque.reaction == axle)
+    table.refuse(&T::reaction,
+                 fmt::format("{} = '{}' is the axle that the torque turns", table.path_of(&T::reaction), axle),
+                 "name the body that holds motor or brake");
+  const int own = body(axle)->vehicle, other = body(torque.reaction)->vehicle;
+  if (own != other)
+    table.refuse(&T::reaction,
+                 fmt::format("{} = '{}' is in vehicle {} of the train, wheelset {} in vehicle {}",
+                             table.path_of(&T::reaction), torque.reaction, other + 1, torque.wheelset + 1, own + 1),
+                 own == 0 ? "bodies of the leading vehicle are called as in its file"
+                          : fmt::format("names of vehicle {0} begin with {1}", own + 1, vehicle_prefix(own)));
+}
+
+/// at_m counts from x = 0 of the leading vehicle, also where the body is in another one.
+void check_point(const TableOf<BodyForce>& table, const BodyForce& force, const VehicleModel& train) {
+  constexpr double kBeyond = 1.0;  // buffers stand out beyond couplers [m]
+  const int own = ranges::find(train.bodies, force.body, &BodySpec::name)->vehicle;
+  const auto of = [&](const std::string& name) { return ranges::find(train.bodies, name, &BodySpec::name)->vehicle; };
+  for (const CouplerSpec& coupler : train.couplers) {
+    const double ahead = force.point->x() - coupler.position.x();
+    if (!(of(coupler.front) == own && ahead < -kBeyond) && !(of(coupler.rear) == own && ahead > kBeyond)) continue;
+    table.refuse(&BodyForce::point,
+                 fmt::format("{}: x = {:.6g} m is not in the vehicle of '{}', whose coupler is at {:.6g} m",
+                             table.path_of(&BodyForce::point), force.point->x(), force.body, coupler.position.x()),
+                 "places of a train count from x = 0 of its leading vehicle");
+  }
 }
 
 WheelContactInput read_wheel(const TableOf<WheelContactInput>& table, std::size_t wheelsets) {
@@ -117,7 +155,8 @@ void read_free_run(const SimulationTable& simulation, SimulationFile& out) {
   simulation.exclude(&F::free_run, setting(&S::profile));
   simulation.exclude(&F::free_run, setting(&S::duration));
   simulation.exclude(&F::free_run, &F::twist);
-  if (!run.place.empty() || !run.gradient.empty()) check_points(table, run, &FreeRun::place, &FreeRun::gradient);
+  if (!run.place.empty() || !run.gradient.empty())
+    check_points(table, run, &FreeRun::place, &FreeRun::gradient, "place");
   S& s = out.settings;
   try {
     s.profile = free_speed(run, {out.vehicle, out.torques, out.forces, s.gravity, out.start}, s.speed, s.distance);
@@ -125,6 +164,45 @@ void read_free_run(const SimulationTable& simulation, SimulationFile& out) {
     throw Error(e.kind(), path + ": " + e.message(), given->where, e.advice());
   }
   s.duration = time_at(s.profile, s.distance);
+}
+
+void check_speeds(const SimulationTable& simulation, const SimulationFile& file) {
+  if (file.free_run || !runs_free(file.vehicle)) return;
+  using S = SimulationSettings;
+  constexpr int kParts = 8;  // looked at between two points, between which speeds are parabolas
+  const S& s = file.settings;
+  const DrivenTrain train{file.vehicle, file.torques, file.forces, s.gravity, file.start};
+  const double mass = running_mass(file.vehicle), radius = file.vehicle.wheelsets.front().nominal_radius;
+  const std::vector<double> driven = points_in_time(train);
+  std::vector<double> times = s.profile.time;
+  times.insert(times.end(), driven.begin(), driven.end());
+  times.push_back(s.duration);
+  std::erase_if(times, [&](double t) { return !(t > 0.0 && t <= s.duration); });
+  ranges::sort(times);
+  double speed = s.speed, begin = 0.0;
+  for (const double end : times) {
+    for (int part = 0; part < kParts; ++part) {
+      const auto at = [&](double share) { return begin + share / kParts * (end - begin); };
+      const double now = at(part + 1);
+      speed += impulse(train, at(part), now) / mass;
+      const double wanted = travel_at(s.profile, now).speed;
+      if (!is_another_speed(speed, wanted)) continue;
+      const CaseValue* profile = simulation.find(setting(&S::profile));
+      const double change = travel_at(s.profile, at(part + 0.5)).acceleration;
+      std::string advice = "give [simulation.free_run]: the speed follows from [[simulation.torques]] then";
+      if (change != 0.0)
+        advice +=
+            fmt::format("; the {:.4g} m/s2 that are wanted take {:.4g} N m in all", change, mass * change * radius);
+      throw Error(
+          ErrorKind::configuration,
+          fmt::format("{} {:.4g} m/s at {:.4g} s, but the vehicles, which nothing holds along the track, run at "
+                      "{:.4g} m/s then{}",
+                      profile != nullptr ? "simulation.speed_profile wants" : "the speed is to stay", wanted, now,
+                      speed, driven.empty() ? ": nothing drives or brakes them" : " under torques and forces along x"),
+          profile != nullptr ? profile->where : simulation.where(), std::move(advice));
+    }
+    begin = end;
+  }
 }
 
 FieldRequests read_fields(const SimulationTable& simulation) {
@@ -145,9 +223,7 @@ std::vector<AxleTorque> read_torques(const SimulationTable& simulation, const Ve
     torque.where = one->where;
     check_wheelset(table, torque, vehicle.wheelsets.size());
     check_points(table, torque, &AxleTorque::time, &AxleTorque::torque);
-    std::vector<std::string> names{kGround};
-    for (const BodySpec& body : vehicle.bodies) names.push_back(body.name);
-    check_name("body", torque.reaction, names, table.need(&AxleTorque::reaction).where);
+    check_reaction(table, torque, vehicle);
   }
   return torques;
 }
@@ -187,6 +263,7 @@ void read_motions(const SimulationTable& simulation, SimulationFile& out) {
     if (!on_rails)
       check_name(table.path_of(&B::body), force.body, names_of(out.vehicle.bodies), table.need(&B::body).where);
     if (on_rails && force.point) table.refuse(&B::point, "a force on rails acts at their centres of mass");
+    if (force.point) check_point(table, force, out.vehicle);
     const bool moment = static_cast<int>(force.direction) >= 3;
     if (table.key(&B::force) != (moment ? "moment_N_m" : "force_N") || table.find(&B::force) == nullptr)
       table.fail(fmt::format("{}: {} must be given along with this direction", table.path(),
@@ -203,6 +280,13 @@ void read_motions(const SimulationTable& simulation, SimulationFile& out) {
               check_name(table.path_of(&M::spring) + ": the spring on the ground", motion.spring, grounded,
                          table.need(&M::spring).where);
               check_motion(table, motion);
+              const SpringSpec& spring = *ranges::find(out.vehicle.springs, motion.spring, &SpringSpec::name);
+              const auto along = static_cast<std::size_t>(motion.direction);
+              if (spring.stiffness.at(along) == 0.0 && spring.damping.at(along) == 0.0)
+                table.refuse(&M::direction,
+                             fmt::format("spring '{}' has neither stiffness nor damping along {}: moving its end does "
+                                         "nothing",
+                                         motion.spring, freedom_word(static_cast<int>(motion.direction))));
             });
   read_list(&SimulationFile::rail_shifts, rail_shift_keys(), [&](const TableOf<RailShift>& table, RailShift& shift) {
     read_rails_below(table, shift);
@@ -271,6 +355,8 @@ void read_check_rails(const SimulationTable& simulation, SimulationFile& out) {
   for (const CaseValue* one : simulation.tables(list)) {
     const TableOf table(*one, simulation.path_of(list), check_rail_keys());
     const C rail = table.read();
+    table.go_with(&C::flare, &C::flare_length);
+    table.go_with(&C::flare_length, &C::flare);
     if (!(rail.to > rail.from)) table.refuse(&C::to, "a check rail ends before it begins");
     if (2.0 * rail.flare_length > rail.to - rail.from)
       table.refuse(&C::flare_length, "the flares at both ends are longer than the check rail");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include <fmt/format.h>
@@ -38,7 +39,48 @@ TrainPart read_part(const CaseValue& one, const std::string& path) {
     table.refuse(of(&C::force), fmt::format("{} has {} values for {} travels", table.path_of(of(&C::force)),
                                             part.coupler.force.size(), part.coupler.travel.size()));
   if (part.coupler.friction > 0.0) table.need(of(&C::friction_stiffness));
+  table.go_with(of(&C::friction_stiffness), of(&C::friction));
   return part;
+}
+
+/// A vehicle and where its x = 0 stands in a train [m].
+struct Placed {
+  const VehicleModel& vehicle;
+  double at = 0.0;
+
+  double x_of(const std::string& body) const {
+    return at + ranges::find(vehicle.bodies, body, &BodySpec::name)->position.x();
+  }
+  /// The wheelset that is ahead of the others, or behind them.
+  double end(bool front) const {
+    std::vector<double> x;
+    for (const WheelsetSpec& w : vehicle.wheelsets) x.push_back(x_of(w.body));
+    return front ? *ranges::max_element(x) : *ranges::min_element(x);
+  }
+};
+
+/// Vehicles stand one behind the other, with the coupler between what it couples.
+void check_places(const TableOf<TrainPart>& table, const TrainPart& part, const Placed& before, const Placed& next) {
+  const double apart = before.end(false) - next.end(true);
+  const double wheels = before.vehicle.wheelsets.front().nominal_radius + next.vehicle.wheelsets.front().nominal_radius;
+  if (!(apart > wheels))
+    table.refuse(&TrainPart::behind,
+                 fmt::format("{} = {:.6g} puts vehicles into each other: the foremost wheelset of the one is {:.4g} m "
+                             "{} the last one of the vehicle before",
+                             table.path_of(&TrainPart::behind), part.behind, std::abs(apart),
+                             apart < 0.0 ? "ahead of" : "behind"),
+                 "it is from x = 0 of the one to x = 0 of the other: the length over couplers");
+  const auto position = [](auto& t) -> auto& { return t.coupler.position; };
+  constexpr double kRounding = 1e-9;
+  const double front = before.x_of(part.between[0]) - before.at, rear = next.x_of(part.between[1]) - before.at,
+               x = part.coupler.position.x();
+  if (!(x <= front + kRounding && x >= rear - kRounding))
+    table.refuse(
+        position,
+        fmt::format("{}: the coupler acts at x = {:.6g} m of the vehicle before, not between the bodies that it "
+                    "couples, whose centres of mass are at {:.6g} and {:.6g} m",
+                    table.path_of(position), x, front, rear),
+        "it stands at the rear end of the vehicle before, whose coordinates count");
 }
 
 }  // namespace
@@ -66,6 +108,7 @@ void read_train(const SimulationTable& simulation, const std::filesystem::path& 
                  table.need(&TrainPart::between).list()[0].where);
       check_name(path + ".between: the body", part.between[1], names_of(vehicle.bodies),
                  table.need(&TrainPart::between).list()[1].where);
+      check_places(table, part, {before, place}, {vehicle, place - part.behind});
       CouplerSpec coupler = part.coupler;
       coupler.name = fmt::format("{}", number);
       coupler.front = vehicle_prefix(number - 1) + part.between[0];

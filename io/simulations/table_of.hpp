@@ -79,6 +79,12 @@ class TableOf : public TableReader {
       requires(std::invocable<One, const Root&>&& std::invocable<Other, const Root&>) {
     TableReader::exclude(key(one), key(other));
   }
+  /// Refuses that a key is given without another one, without which it does nothing.
+  template <class One, class Other>
+  void go_with(One one, Other other) const
+      requires(std::invocable<One, const Root&>&& std::invocable<Other, const Root&>) {
+    TableReader::go_with(key(one), key(other));
+  }
   /// Error(configuration) at the value of a key.
   template <class Member>
   [[noreturn]] void refuse(Member member, std::string message, std::string advice = {}) const {

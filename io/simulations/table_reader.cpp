@@ -150,6 +150,13 @@ void TableReader::exclude(std::string_view one, std::string_view other) const {
                 second->where, "give one of them");
 }
 
+void TableReader::go_with(std::string_view one, std::string_view other) const {
+  const CaseValue* first = find(one);
+  if (first == nullptr || find(other) != nullptr) return;
+  throw Error(ErrorKind::configuration, fmt::format("{} does nothing without {}", path_of(one), other), first->where,
+              fmt::format("give {}, or leave it out", other));
+}
+
 void check_name(std::string_view what, const std::string& name, std::span<const std::string> known,
                 const SourcePosition& where) {
   if (std::find(known.begin(), known.end(), name) != known.end()) return;

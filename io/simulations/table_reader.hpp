@@ -45,6 +45,8 @@ class TableReader {
   std::vector<Vec3> points(std::string_view key) const;
   /// Refuses that both are given.
   void exclude(std::string_view one, std::string_view other) const;
+  /// Refuses that one is given without the other.
+  void go_with(std::string_view one, std::string_view other) const;
 
   [[noreturn]] void fail(std::string message, std::string advice = {}) const;
 

@@ -28,14 +28,26 @@ double resistance_at(const FreeRun& run, double speed);
 struct DrivenTrain {
   const VehicleModel& train;            ///< or a single vehicle
   std::span<const AxleTorque> torques;  ///< of wheelsets that are there
-  std::span<const BodyForce> forces;    ///< those along x count
+  std::span<const BodyForce> forces;    ///< those along x count, and moments about axles
   double gravity = 9.81;                ///< [m/s2]
   double start = 0.0;                   ///< place of its x = 0 on the line at time 0 [m]
 };
 
-/// Speeds until a distance has been travelled, of all masses as one, turning wheelsets included: torques on axles over
-/// nominal radii, forces from outside along x, gradients below every body, resistance. Errors: Error(configuration)
-/// where the train comes to rest before.
+/// All masses as one that turns its wheels: mass [kg], with I/R^2 of wheelsets that are free in pitch.
+double running_mass(const VehicleModel& train);
+/// Momentum that torques on axles (over nominal radii), moments on them and forces from outside along x give between
+/// two times, exactly [N s].
+double impulse(const DrivenTrain& train, double from, double to);
+/// Times at which these have a point, increasing [s].
+std::vector<double> points_in_time(const DrivenTrain& train);
+
+/// Speeds until a distance has been travelled, of all masses as one: their momentum, gradients below every body,
+/// resistance. Momentum of what acts and work of gradients are exact however fast they change; between the points of
+/// the profile, which are at most 0.1 s apart and where torques and forces have theirs, speeds are straight lines.
+/// Errors: Error(configuration) where the train comes to rest before, or the profile has more than a million points.
 SpeedProfile free_speed(const FreeRun& run, const DrivenTrain& train, double speed, double distance);
+
+/// Whether a speed is not the one that was asked for: by more than a hundredth, and by more than 1 cm/s [m/s].
+bool is_another_speed(double speed, double wanted);
 
 }  // namespace treadmark

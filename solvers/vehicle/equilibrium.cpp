@@ -76,9 +76,13 @@ Matrix stiffness_of_springs(const VehicleOnTrack& vehicle, const SystemState& st
 /// Solves for each part of a train that moves by itself.
 class SolverByPart {
  public:
-  SolverByPart(const Multibody& system, const Matrix& slopes) {
-    for (const Multibody::Range& part : independent_parts(system, slopes, slopes))
-      parts_.emplace_back(part, block_of(slopes, part).fullPivLu());
+  /// ahead: see running_ahead.
+  SolverByPart(const Multibody& system, const Matrix& slopes, const Vector& ahead) {
+    for (const Multibody::Range& part : independent_parts(system, slopes, slopes)) {
+      Matrix own = block_of(slopes, part);
+      if (ahead.size() > 0) hold(system, part, ahead, own);
+      parts_.emplace_back(part, own.fullPivLu());
+    }
   }
   Vector solve(const Vector& right) const {
     Vector out(right.size());
@@ -87,13 +91,27 @@ class SolverByPart {
   }
 
  private:
+  /// Where vehicles that are free stand along the track changes no force, so that slopes leave it open. Displacements
+  /// are held by forces in proportion to masses, which Balance::let_run takes out again.
+  static void hold(const Multibody& system, const Multibody::Range& part, const Vector& ahead, Matrix& slopes) {
+    constexpr double kHold = 1e3;  // acceleration by displacement, so that the sum is of the order of springs [1/s2]
+    const Vector along = part_of(ahead, part), inertia = along.cwiseProduct(part_of(system.mass, part));
+    for (int i = 0; i < part.size; ++i)
+      if (system.coordinates[static_cast<std::size_t>(part.first + i)].freedom == Freedom::x)
+        slopes.col(i) += kHold * along[i] * inertia;
+  }
+
   std::vector<std::pair<Multibody::Range, Eigen::FullPivLU<Matrix>>> parts_;
 };
 
 /// Wheelsets roll freely: of their pitch the rate is sought, and the angle stays.
 class Balance {
  public:
-  Balance(const VehicleOnTrack& vehicle) : vehicle_(vehicle), system_(vehicle.system), line_(vehicle.line_state(0.0)) {
+  Balance(const VehicleOnTrack& vehicle)
+      : vehicle_(vehicle),
+        system_(vehicle.system),
+        line_(vehicle.line_state(0.0)),
+        ahead_(running_ahead(vehicle.system)) {
     for (const Multibody::Wheelset& w : system_.wheelsets)
       if (w.coordinate[4] >= 0) rolling_.push_back(w.coordinate[4]);
     scale_ = *ranges::max_element(system_.wheelset_load);
@@ -133,6 +151,7 @@ class Balance {
       }
       vehicle_.add_force(i, generalised_force(reaction, m), r);
     }
+    let_run(r);
     return true;
   }
 
@@ -144,7 +163,7 @@ class Balance {
   SolverByPart jacobian(const SystemState& state, double coarseness) const {
     LinearSystem system = linearised_system(vehicle_, state, coarseness);
     for (const int c : rolling_) system.stiffness.col(c) = system.damping.col(c);
-    return {system_, system.stiffness};
+    return {system_, system.stiffness, ahead_};
   }
 
   /// Gives every wheelset, held where it is, the rate at which no moment turns it. Wheels that touch far from their
@@ -198,6 +217,13 @@ class Balance {
   }
 
  private:
+  /// Vehicles that are free along the track cannot bear what their wheels take: all masses gain and lose speed by it,
+  /// and the rest is in balance.
+  void let_run(Vector& r) const {
+    if (ahead_.size() == 0) return;
+    const Vector inertia = ahead_.cwiseProduct(system_.mass);
+    r -= ahead_.dot(r) / ahead_.dot(inertia) * inertia;
+  }
   double share(const Vector& r, std::size_t i) const {
     return std::abs(r[static_cast<Eigen::Index>(i)]) / (scale_ * system_.coordinates[i].arm);
   }
@@ -258,6 +284,7 @@ class Balance {
   const VehicleOnTrack& vehicle_;
   const Multibody& system_;
   std::optional<LineState> line_;  ///< at the start
+  Vector ahead_;                   ///< see running_ahead
   std::vector<int> rolling_;
   double scale_ = 1.0;
 };
@@ -434,17 +461,30 @@ void start_rolling(const Balance& balance, const EquilibriumSettings& settings, 
   if (now.residual < found.residual) found = std::move(now);
 }
 
+/// Where forces are left out of balance; empty: nothing is known of them.
+std::string where_most(const Balance& balance, const Equilibrium& found, std::vector<ContactReaction>& reactions) {
+  Vector r;
+  std::string why;
+  return balance.imbalance(found.state, r, reactions, why) ? ", most along " + balance.most(r) : "";
+}
+
 /// What is known of a balance that was not found.
 std::string what_remains(const VehicleOnTrack& vehicle, const Balance& balance, const Equilibrium& found) {
-  Vector r;
   std::vector<ContactReaction> reactions;
-  std::string why;
-  if (!balance.imbalance(found.state, r, reactions, why)) return {};
-  std::string text = ", most along " + balance.most(r);
+  std::string text = where_most(balance, found, reactions);
+  if (text.empty()) return text;
   for (std::size_t i = 0; i < reactions.size(); ++i)
     text += fmt::format("{} {} touches at y = {:.4g} mm", i == 0 ? ";" : ",", vehicle.wheels[i].name,
                         reactions[i].contact_y * kMilli);
   return text;
+}
+
+/// The same of one that is near. Contacts that are solved element by element cost much.
+std::string why_forces_remain(const VehicleOnTrack& vehicle, const Balance& balance, const Equilibrium& found) {
+  if (ranges::any_of(vehicle.wheels, [](const WheelOnRail& wheel) { return wheel.element->costly(); }))
+    return ": those of full contacts jump with their elements";
+  std::vector<ContactReaction> reactions;
+  return where_most(balance, found, reactions);
 }
 
 /// From the balance of the same vehicle with simpler contacts, where that leads there.
@@ -489,10 +529,9 @@ Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSet
         fmt::format("the static equilibrium was not found: forces of {:.2g} of a wheelset's load remain{}{}{}",
                     found.residual, what_remains(vehicle, balance, found), why.empty() ? "" : "; ", why)};
   else if (found.residual > settings.acceptable)
-    found.report.message = fmt::format(
-        "in the static equilibrium forces of {:.2g} of a wheelset's load remain out of balance: those of contacts jump "
-        "with their elements",
-        found.residual);
+    found.report.message =
+        fmt::format("in the static equilibrium forces of {:.2g} of a wheelset's load remain out of balance{}",
+                    found.residual, why_forces_remain(vehicle, balance, found));
   return found;
 }
 

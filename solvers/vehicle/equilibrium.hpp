@@ -34,6 +34,8 @@ struct Equilibrium {
 /// halved until the imbalance falls; (2) slopes over wide differences, for rough wheels, whose forces jump with the
 /// elements; (3) on curved lines, the same from where the vehicle is after some running in; (4) the same from wheelsets
 /// that turn on the spot until no moment acts on them, for wheels that touch far from their nominal circle.
+/// Vehicles that are free along the track (Multibody::free_along) are in balance but for an acceleration that all their
+/// masses share: of what the wheels take, and of torques and forces that the speed of the line does not follow.
 /// A state that is only doubtful has status ok and a message. Leaves the elements as they were.
 /// easy: the same vehicle with contacts that cost less, whose balance is found first and led on to that of the others;
 /// null: none.

@@ -38,6 +38,8 @@ struct LineEffects::Frame {
 
 namespace {
 
+constexpr double kSamePoint = 1e-6;  // in time, of torques and so on [s]
+
 /// Small rotation that a matrix stands for.
 Vec3 rotation_vector(const Mat3& r) { return 0.5 * Vec3(r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1)); }
 
@@ -90,7 +92,31 @@ LineEffects::LineEffects(const Multibody& system, LineSetup setup)
     torque_on_.emplace_back(axle, reaction);
   }
   place_motions(system);
+  gather_points();
   if (setup_.path) check_curves();
+}
+
+void LineEffects::gather_points() {
+  const auto take = [this](const std::vector<double>& times) {
+    points_.insert(points_.end(), times.begin(), times.end());
+  };
+  take(setup_.speed.time);
+  for (const AxleTorque& torque : setup_.torques) take(torque.time);
+  for (const BodyForce& force : setup_.forces) take(force.time);
+  for (const SpringMotion& motion : setup_.spring_motions) take(motion.time);
+  for (const RailShift& shift : setup_.rail_shifts) take(shift.time);
+  ranges::sort(points_);
+  const auto near = [](double one, double next) { return next - one < kSamePoint; };
+  points_.erase(std::unique(points_.begin(), points_.end(), near), points_.end());
+}
+
+double LineEffects::step_within(double time, double step) const {
+  if (setup_.stays) return step;
+  const auto next = std::upper_bound(points_.begin(), points_.end(), time + 0.5 * kSamePoint);
+  if (next == points_.end() || !(*next < time + step)) return step;
+  const bool in_short_piece = next != points_.begin() && *next - *(next - 1) < step,
+             before_one = next + 1 != points_.end() && *(next + 1) < time + step;
+  return in_short_piece || before_one ? *next - time : step;
 }
 
 void LineEffects::check_curves() const {
@@ -162,6 +188,11 @@ void LineEffects::place_motions(const Multibody& system) {
     if (body == bodies_.end() && (!f.body.empty() || !f.left))
       fail(fmt::format("there is no body '{}' for a force to act on", f.body), f.where);
     force_by_.push_back(body == bodies_.end() ? unit_on_rails(system, f) : unit_on_body(system, *body, f));
+    // That of a free run counts in its speed, also on bodies that move at that.
+    if (force_by_.back().isZero(0.0) && !(setup_.free_run && f.direction == Freedom::x))
+      throw Error(ErrorKind::configuration,
+                  fmt::format("a force or moment on '{}' does nothing: the body is not free in that direction", f.body),
+                  f.where, "add the direction to its `free`, or leave the force out");
   }
   for (const SpringMotion& m : setup_.spring_motions) {
     const auto link = ranges::find(links_, m.spring, &Multibody::Link::spring);

@@ -87,6 +87,10 @@ class LineEffects {
   /// the acceleration against the frame: acceleration of the frame's point less the change of gravity [m/s2].
   Vec3 felt_acceleration(const Vec3& place, double time) const;
 
+  /// How far a step from a time goes at most that would take so long [s]: where two points in time of torques, forces,
+  /// motions and speeds are nearer to each other than that, steps end at both, so that no pulse falls between them.
+  double step_within(double time, double step) const;
+
   /// At which the path frame below a place along the vehicle turns, in its axes [rad/s].
   Vec3 frame_spin(double x, double time) const;
 
@@ -105,6 +109,7 @@ class LineEffects {
   void add_links(LineState& out, const Travel& travel, double time) const;
   void check_curves() const;
   void place_motions(const Multibody& system);
+  void gather_points();
 
   LineSetup setup_;
   Eigen::Index size_ = 0;
@@ -126,6 +131,7 @@ class LineEffects {
   std::vector<MovedLink> moved_;
   std::vector<LimitedSpline> shifts_;
   std::vector<std::pair<int, int>> torque_on_;  ///< coordinates of the axle's and the reaction's pitch; -1: none
+  std::vector<double> points_;                  ///< in time, increasing [s]
 };
 
 }  // namespace treadmark::vehicle

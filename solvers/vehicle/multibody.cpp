@@ -12,6 +12,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/model/vehicle/train.hpp"
 
 namespace treadmark::vehicle {
 
@@ -77,6 +78,7 @@ class Assembly {
     for (const CouplerSpec& coupler : vehicle.couplers) add_coupler(coupler);
     finish();
     add_pressures(vehicle.air_springs);
+    system_.free_along = runs_free(vehicle);
   }
 
   Multibody take() { return std::move(system_); }
@@ -709,6 +711,16 @@ class Assembly {
 Multibody assemble(const VehicleModel& vehicle, const std::optional<TrackModel>& track, double speed, double gravity) {
   if (vehicle.wheelsets.empty()) throw Error(ErrorKind::configuration, "the vehicle has no wheelset");
   return Assembly(vehicle, track, speed, gravity).take();
+}
+
+Vector running_ahead(const Multibody& system) {
+  if (!system.free_along) return {};
+  Vector way = Vector::Zero(system.size());
+  for (const Multibody::Body& b : system.bodies)
+    if (b.coordinate[0] >= 0) way[b.coordinate[0]] = 1.0;
+  for (const Multibody::Wheelset& w : system.wheelsets)
+    if (w.coordinate[0] >= 0 && w.coordinate[4] >= 0) way[w.coordinate[4]] = -1.0 / w.nominal_radius;
+  return way;
 }
 
 Vector Multibody::times(const Matrix& matrix, const Vector& v) const {

@@ -74,6 +74,7 @@ struct Multibody {
   std::vector<CharacteristicForce> characteristics;
   ForceElements elements;
   std::vector<double> wheelset_load;  ///< vertical load of each wheelset on its two rails [N]
+  bool free_along = false;            ///< nothing holds the vehicles to the speed of the reference configuration
 
   struct Wheelset {
     std::array<int, kFreedoms> coordinate;  ///< -1: not free
@@ -149,6 +150,10 @@ auto block_of(AnyMatrix& m, const Multibody::Range& vehicle) {
 
 /// Runs of vehicles that neither of two matrices couples with the others.
 std::vector<Multibody::Range> independent_parts(const Multibody& system, const Matrix& one, const Matrix& other);
+
+/// How all coordinates move while vehicles that are free along the track run ahead by 1 m on their wheels: x of bodies
+/// by 1, pitch of wheelsets by -1/R. Empty: they are not free.
+Vector running_ahead(const Multibody& system);
 
 /// speed [m/s], gravity [m/s2]. Errors: Error(configuration) with the place of the body or spring that makes no sense.
 Multibody assemble(const VehicleModel& vehicle, const std::optional<TrackModel>& track, double speed, double gravity);

@@ -263,6 +263,7 @@ void Simulation::advance() {
 
 void Simulation::take_step() {
   double h = std::min(next_step_, longest_step());
+  if (vehicle_->line) h = vehicle_->line->step_within(motion_.state.time, h);
   Step step;
   for (;;) {
     step = attempt(h);

@@ -47,8 +47,9 @@ struct EnergyBalance {
 };
 
 /// Integrates a vehicle on a track in time. Steps are as long as the error estimate, the travel per step and the
-/// duration allow; they end where a wheel loses or regains contact. A step that is repeated starts from the same state,
-/// contact history included. Results do not depend on the number of threads. Not thread-safe.
+/// duration allow; they end where a wheel loses or regains contact, and at points of torques, forces, motions and
+/// speeds that are nearer to each other than a step. A step that is repeated starts from the same state, contact
+/// history included. Results do not depend on the number of threads. Not thread-safe.
 class Simulation {
  public:
   /// start: from find_equilibrium, or any other state; the wheels of the vehicle must be connected. Accepts the

@@ -151,6 +151,34 @@ TEST(AssessResult, DoubtsAreNamed) {
   EXPECT_EQ(find(coarse, "ws1_left", "Q").status, measures::AssessedStatus::too_coarse);
 }
 
+/// At 20 m/s in a curve of 500 m with 60 mm: b v^2/(g R) less the cant.
+TEST(AssessResult, CantDeficiencyIsThatOfTheLine) {
+  const auto in_curve = [](std::vector<io::NamedValue> statics) {
+    const auto plain = sample_run(0.01), run = std::make_shared<io::SimulationResult>(*plain);
+    run->values.clear();
+    for (const char* name : {"line.speed_m_s", "line.curvature_1_m", "line.cant_m"})
+      run->columns.push_back({name, "", ""});
+    for (std::size_t row = 0; row < plain->rows(); ++row) {
+      for (std::size_t c = 0; c < plain->columns.size(); ++c)
+        run->values.push_back(plain->values[row * plain->columns.size() + c]);
+      for (const double v : {kSpeedOfRun, 1.0 / 500.0, 0.06}) run->values.push_back(v);
+    }
+    run->statics.insert(run->statics.end(), statics.begin(), statics.end());
+    return assess_result("one", run, {});
+  };
+  const AssessedRun own = in_curve({{kCantBaseName, 1.1, "m", ""}, {kGravityName, 9.8, "m/s2", ""}});
+  ASSERT_EQ(own.cant_deficiency.size(), 1u);
+  EXPECT_NEAR(own.cant_deficiency[0], 1.1 / 9.8 * 0.8 - 0.06, 1e-12);
+  const AssessedRun old = in_curve({});
+  EXPECT_NEAR(old.cant_deficiency[0], 1.5 / 9.81 * 0.8 - 0.06, 1e-12);
+  const auto says = [](const AssessedRun& run) {
+    return ranges::any_of(run.doubts,
+                          [](const std::string& d) { return d.find("base of 1.5 m") != std::string::npos; });
+  };
+  EXPECT_TRUE(says(old));
+  EXPECT_FALSE(says(own));
+}
+
 TEST(AssessmentOutputs, HoldTheSameNumbersAndAreReadBack) {
   AssessmentRequest request;
   request.vehicle = VehicleKind::freight;

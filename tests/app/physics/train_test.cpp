@@ -21,6 +21,9 @@ TEST(TrainOfWagons, RunsUpAgainstTheBrakedOne) {
   const io::SimulationResult r = run_simulation(file, store, {}, {});
   ASSERT_EQ(r.status, "complete") << r.message;
   EXPECT_EQ(r.message.find("energies"), std::string::npos) << r.message;
+  EXPECT_EQ(r.message.find("balance"), std::string::npos)
+      << "each wagon's wheels take 25 N, which no other force bears";
+  EXPECT_EQ(r.message.find("keep their speed"), std::string::npos) << r.message;
   const auto column = [&](const std::string& name) {
     return [&r, at = io::column_index(r, name)](std::size_t row) { return r.values[row * r.columns.size() + at]; };
   };

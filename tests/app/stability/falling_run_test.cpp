@@ -166,6 +166,10 @@ TEST_F(Falling, RefusesWhatMakesNoSense) {
   EXPECT_THAT(hasty.err, HasSubstr("too short"));
   EXPECT_EQ(RunningProgram({"treadmark", "stability", path("simulation.toml"), "--deceleration", "1"}).wait().status,
             2);
+  input.edit("vehicle.toml", "free = [\"z\"]", "free = [\"x\", \"z\"]");
+  const ProgramResult free = status({});
+  EXPECT_EQ(free.status, 2);
+  EXPECT_THAT(free.err, HasSubstr("nothing holds them along the track"));
 }
 
 }  // namespace

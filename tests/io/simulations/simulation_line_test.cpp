@@ -359,6 +359,21 @@ TEST_F(SimulationLine, WhatActsFromOutsideIsRead) {
               HasSubstr("the spring on the ground 'primary1' is not known"));
 }
 
+TEST_F(SimulationLine, EndsOfSpringsMoveAlongTheirStiffness) {
+  folder_.write("vehicle.toml",
+                samples::with(samples::kVehicle, "[[bump_stops]]",
+                              "[[springs]]\nname = \"actuator\"\nbetween = [\"ground\", \"mass\"]\n"
+                              "at_m = [[0, 0, -1]]\nstiffness_N_per_m = [0, 0, 1e4]\n\n[[bump_stops]]"));
+  const auto moved = [&](const std::string& direction) {
+    return samples::error_of([&] {
+      parse("\n[[simulation.spring_motions]]\nspring = \"actuator\"\ndirection = \"" + direction +
+            "\"\ntime_s = [0, 1]\ndisplacement_mm = [0, 1]\n");
+    });
+  };
+  EXPECT_EQ(moved("z"), "no error");
+  EXPECT_THAT(moved("y"), HasSubstr("spring 'actuator' has neither stiffness nor damping along y"));
+}
+
 TEST_F(SimulationLine, TwistTestsMoveTheRailsBelowAllWheels) {
   const std::string kTwist = "\n[simulation.twist]\nvehicle_per_mille = 3\nwheelsets_per_bogie = 1\nperiod_s = 0.1\n";
   const SimulationFile file = parse(kTwist);

@@ -122,6 +122,8 @@ TEST(Equilibrium, ForcesThatStayOutOfBalanceAreNamedOrRefused) {
     const Equilibrium e = find_equilibrium(v);
     EXPECT_EQ(e.report.status == Status::ok, share < 1e-3) << e.residual;
     EXPECT_NE(e.report.message.find("remain"), std::string::npos) << e.report.message;
+    EXPECT_NE(e.report.message.find("most along wheelset.x"), std::string::npos) << e.report.message;
+    EXPECT_EQ(e.report.message.find("elements"), std::string::npos) << "these contacts have none";
   }
 }
 

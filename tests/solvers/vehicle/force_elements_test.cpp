@@ -548,6 +548,19 @@ TEST(BodyForce, ActsAtItsPoint) {
   EXPECT_EQ(line.force[place_of(v.system, "mass.z")], 0.0);
 }
 
+TEST(BodyForce, ThatNothingFollowsIsRefused) {
+  const auto pulled = [](bool free_run) {
+    return with_line(wheel_on_mass(1800.0, 9000.0, 2e6, 1e4), [&](LineSetup& setup) {
+      BodyForce pull = on_mass({0.0}, {5e3});
+      pull.direction = Freedom::x;
+      setup.forces = {pull};
+      if (free_run) setup.free_run = FreeRun{};
+    });
+  };
+  EXPECT_THROW(pulled(false), Error) << "the mass moves up and down only";
+  EXPECT_NO_THROW(pulled(true)) << "it makes the speed";
+}
+
 /// Both rails together go down by what the bed of one gives way to the force.
 TEST(BodyForce, ActsOnARailThatRunsAlong) {
   constexpr double kBedStiffness = 5e7, kForce = 8e3;

@@ -9,7 +9,9 @@
 #include <functional>
 #include <memory>
 #include <numbers>
+#include <random>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -320,6 +322,215 @@ TEST(FreeRun, SpeedsAreThoseOfClosedForms) {
   const std::vector<AxleTorque> torques{{0, {0.0}, {4600.0}, "mass", {}}};
   const SpeedProfile driven = free_speed({}, {one, torques, {}, kGravity, 0.0}, 10.0, 100.0);
   EXPECT_NEAR((driven.speed.back() - 10.0) / driven.time.back(), 1e4 / (mass + 110.0 / (0.46 * 0.46)), 1e-9);
+}
+
+/// The integral of a broken line whose ends are held, from 0.
+double by_trapezoids(const std::vector<double>& x, const std::vector<double>& y, double to) {
+  std::vector<double> places = x, values = y;
+  places.insert(places.begin(), -1e3), values.insert(values.begin(), y.front());
+  places.push_back(1e6), values.push_back(y.back());
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const double low = std::max(0.0, places[i]), high = std::min(to, places[i + 1]);
+    const double slope = (values[i + 1] - values[i]) / (places[i + 1] - places[i]);
+    if (low < high) sum += (high - low) * (values[i] + slope * (0.5 * (low + high) - places[i]));
+  }
+  return sum;
+}
+
+/// A table whose steps are of all orders from one to the other.
+std::pair<std::vector<double>, std::vector<double>> random_table(std::mt19937& random, double from, double to,
+                                                                 double most, double end) {
+  std::uniform_real_distribution<double> order(std::log(from), std::log(to)), value(-most, most);
+  std::vector<double> at, values;
+  for (double x = 0.0; x < end; x += std::exp(order(random))) at.push_back(x), values.push_back(value(random));
+  return {at, values};
+}
+
+/// A mass on a wheelset that turns, both free along x.
+VehicleModel rolling_car() {
+  VehicleModel one = sliding_car();
+  one.bodies[1].free[0] = one.bodies[1].free[4] = true;
+  one.bodies[1].inertia = {1.0, 110.0, 1.0};
+  one.springs[0].stiffness[0] = 1e7;
+  return one;
+}
+constexpr double kRollingMass = kSprungMass + kWheelMass + 110.0 / (0.46 * 0.46);
+
+TEST(FreeRun, MomentumOfAnyForceArrives) {
+  const VehicleModel one = rolling_car();
+  std::mt19937 random(4);
+  for (int trial = 0; trial < 20; ++trial) {
+    AxleTorque torque;
+    torque.reaction = kGround;
+    BodyForce force, moment;
+    force.body = "mass";
+    force.direction = Freedom::x;
+    moment.body = "wheelset";
+    moment.direction = Freedom::pitch;
+    std::tie(torque.time, torque.torque) = random_table(random, 1e-3, 1.0, 4e3, 12.0);
+    std::tie(force.time, force.force) = random_table(random, 1e-3, 1.0, 9e3, 12.0);
+    std::tie(moment.time, moment.force) = random_table(random, 1e-3, 1.0, 4e3, 12.0);
+    const std::vector<AxleTorque> torques{torque};
+    const std::vector<BodyForce> forces{force, moment};
+    const SpeedProfile profile = free_speed({}, {one, torques, forces, kGravity, 0.0}, 40.0, 400.0);
+    for (std::size_t i = 0; i < profile.time.size(); ++i) {
+      const double t = profile.time[i], momentum = (by_trapezoids(torque.time, torque.torque, t) -
+                                                    by_trapezoids(moment.time, moment.force, t)) /
+                                                       0.46 +
+                                                   by_trapezoids(force.time, force.force, t);
+      ASSERT_NEAR(profile.speed[i], 40.0 + momentum / kRollingMass, 1e-9) << trial << ' ' << t;
+    }
+  }
+}
+
+/// Three periods of 50 ms, once in the rhythm of the longest steps and once not.
+TEST(FreeRun, RipplesAndPulsesBrakeByTheirMean) {
+  const VehicleModel one = rolling_car();
+  for (const double begin : {0.2, 0.2137}) {
+    AxleTorque ripple;
+    for (int i = 0; i <= 6; ++i) {
+      ripple.time.push_back(begin + 0.025 * i);
+      ripple.torque.push_back(i % 2 == 0 ? 0.0 : -8000.0);
+    }
+    const std::vector<AxleTorque> torques{ripple};
+    const SpeedProfile profile = free_speed({}, {one, torques, {}, kGravity, 0.0}, 15.0, 15.0);
+    EXPECT_NEAR(profile.speed.back(), 15.0 - 4000.0 * 0.15 / 0.46 / kRollingMass, 1e-9);
+  }
+}
+
+/// Height that is gained is speed that is lost.
+TEST(FreeRun, WorkOfAnyGradientArrives) {
+  const VehicleModel one = sliding_car();
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 20; ++trial) {
+    FreeRun hills;
+    std::tie(hills.place, hills.gradient) = random_table(random, 0.5, 1.0, 0.02, 300.0);
+    const SpeedProfile profile = free_speed(hills, {one, {}, {}, kGravity, 0.0}, 40.0, 400.0);
+    for (std::size_t i = 0; i < profile.time.size(); ++i) {
+      const double height = by_trapezoids(hills.place, hills.gradient, profile.distance[i]);
+      ASSERT_NEAR(profile.speed[i] * profile.speed[i], 1600.0 - 2.0 * kGravity * height, 1600.0e-9)
+          << trial << ' ' << i;
+    }
+  }
+}
+
+/// A train in whose couplers nothing acts before a pulse of 0.2 ms, on steps of 1 ms.
+TEST(FreeRun, NoPulseFallsBetweenTwoInstants) {
+  constexpr double kPulse = 1e6, kHalf = 1e-4;  // [N], [s]
+  for (const double begin : {0.05, 0.050433}) {
+    VehicleOnTrack v = on_hertz_springs(coupled(2, [](CouplerSpec&) {}), {}, kTrainSpeed, kRailSpring);
+    LineSetup setup;
+    setup.gravity = kGravity;
+    setup.speed = constant_speed(kTrainSpeed);
+    setup.forces.push_back(
+        {"mass", {}, {}, {}, Freedom::x, {begin, begin + kHalf, begin + 2.0 * kHalf}, {0.0, kPulse, 0.0}, {}});
+    v.line = std::make_shared<const LineEffects>(v.system, std::move(setup));
+    const Equilibrium e = find_equilibrium(v);
+    ASSERT_EQ(e.report.status, Status::ok) << e.report.message;
+    SimulationSettings settings = equal_steps(0.1, 1e-3);
+    settings.step.spectral_radius = 1.0;
+    Simulation s(v, e.state, settings);
+    run_all(s);
+    const double gained = kPulse * kHalf / (2.0 * (kSprungMass + kWheelMass));
+    EXPECT_NEAR(v.mean_speed(s.state()) - kTrainSpeed, gained, 1e-6 * gained) << begin;
+  }
+}
+
+TEST(FreeRun, StepsEndOnlyAtPointsThatAreNear) {
+  const VehicleOnTrack v = on_hertz_springs(sliding_car(), {}, kTrainSpeed, kRailSpring);
+  LineSetup setup;
+  setup.speed = {{0.0, 1.0, 1.004}, {kTrainSpeed, kTrainSpeed, kTrainSpeed}, {}};
+  setup.forces.push_back({"mass", {}, {}, {}, Freedom::x, {0.5, 1.0, 2.0}, {0.0, 1.0, 0.0}, {}});
+  const LineEffects line(v.system, std::move(setup));
+  EXPECT_EQ(line.step_within(0.499, 0.002), 0.002) << "one point within it";
+  EXPECT_NEAR(line.step_within(0.999, 0.01), 0.001, 1e-12) << "a pulse begins";
+  EXPECT_NEAR(line.step_within(1.0, 0.01), 0.004, 1e-12) << "a pulse ends";
+  EXPECT_NEAR(line.step_within(1.001, 0.01), 0.003, 1e-12);
+  EXPECT_EQ(line.step_within(0.999, 0.003), 0.003) << "no shorter than a step";
+  EXPECT_EQ(line.step_within(1.004, 0.01), 0.01);
+  EXPECT_EQ(line.step_within(3.0, 0.01), 0.01);
+}
+
+TEST(Train, RunsFreeWhereNothingHoldsIt) {
+  const VehicleModel free = coupled(3, [](CouplerSpec&) {});
+  EXPECT_TRUE(runs_free(free));
+  EXPECT_FALSE(runs_free(train(car(), 3))) << "nothing moves along x";
+  const auto held = [&](const std::function<void(VehicleModel&)>& change) {
+    VehicleModel changed = free;
+    change(changed);
+    return !runs_free(changed);
+  };
+  EXPECT_TRUE(held([](VehicleModel& v) { v.springs.push_back(spring(kGround, "v2_mass", {}, {1.0, 0, 0, 0, 0, 0})); }));
+  EXPECT_TRUE(held([](VehicleModel& v) { v.springs[0].damping[0] = 1.0; })) << "wheelsets do not move along x";
+  EXPECT_TRUE(held([](VehicleModel& v) { v.couplers[1].rear = "v3_wheelset"; }));
+  EXPECT_TRUE(held([](VehicleModel& v) {
+    DryFrictionSpec f;
+    f.body_a = kGround;
+    f.body_b = "mass";
+    f.directions[0] = true;
+    v.frictions = {f};
+  }));
+  EXPECT_FALSE(held([](VehicleModel& v) { v.springs.push_back(spring(kGround, "mass", {}, {0, 1.0, 0, 0, 0, 0})); }));
+}
+
+/// A wheel that takes a force along the track, whatever it does.
+class Dragging : public HertzSpring {
+ public:
+  Dragging(double side_y, double drag) : HertzSpring(kRailSpring, side_y), drag_(drag) {}
+  ContactReaction evaluate(const PairMotion& m) override {
+    ContactReaction r = HertzSpring::evaluate(m);
+    r.on_rail.force.x() += drag_;
+    r.on_wheelset.force.x() -= drag_;
+    return r;
+  }
+
+ private:
+  double drag_;
+};
+
+/// The masses slow down by all that wheels take; what of it is not that of their own wheels comes through the coupler.
+TEST(Train, StartsWithWhatItsWheelsTake) {
+  constexpr double kDrag = 200.0;  // of a vehicle's wheels [N]
+  for (const auto& [first, second] : {std::pair{1.0, 1.0}, {0.0, 1.0}, {1.0, 0.0}}) {
+    VehicleModel model = coupled(2, [](CouplerSpec&) {});
+    for (BodySpec& b : model.bodies) b.free[0] = true;
+    for (SpringSpec& s : model.springs) s.stiffness[0] = 1e7;
+    VehicleOnTrack v = on_hertz_springs(model, {}, kTrainSpeed, kRailSpring);
+    ASSERT_TRUE(v.system.free_along);
+    for (std::size_t i = 0; i < 4; ++i)
+      v.wheels[i].element =
+          std::make_shared<Dragging>(i % 2 == 0 ? -0.75 : 0.75, 0.5 * kDrag * (i < 2 ? first : second));
+    const Equilibrium e = find_equilibrium(v, {1e-10});
+    ASSERT_EQ(e.report.status, Status::ok) << e.report.message;
+    EXPECT_LE(e.residual, 1e-10);
+    const Simulation s(v, e.state, equal_steps(1.0, 1e-3));
+    EXPECT_NEAR(s.element_force()[0], 0.5 * kDrag * (second - first), 1e-4 * kDrag);
+    const double acceleration = -0.5 * kDrag * (first + second) / (kSprungMass + kWheelMass);
+    for (int i = 0; i < 2; ++i)
+      EXPECT_NEAR(s.acceleration()[x_of(v.system, i)], acceleration, 1e-3 * kDrag / kSprungMass);
+    EXPECT_NEAR(stretch_of(s), s.element_force()[0] / kCoupling, 1e-12);
+    EXPECT_LT(std::abs(s.state().q[x_of(v.system, 0)]), 1e-3) << "it starts where it stands";
+  }
+}
+
+TEST(Train, NamesOfTheLeadingVehicleAreItsOwn) {
+  const auto refused = [](const std::function<void(VehicleModel&)>& change) {
+    VehicleModel leading = car();
+    change(leading);
+    try {
+      append_vehicle(leading, car(), -kApart);
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused([](VehicleModel& v) { v.bodies[0].name = "v3_mass"; }), "");
+  EXPECT_EQ(refused([](VehicleModel& v) { v.bodies[0].name = "v2_load"; }), "");
+  EXPECT_NE(refused([](VehicleModel& v) { v.bodies[0].name = "v2_mass"; }).find("'v2_mass' of the leading vehicle"),
+            std::string::npos);
+  EXPECT_NE(refused([](VehicleModel& v) { v.bump_stops[0].name = "v2_stop"; }).find("'stop' of vehicle 2"),
+            std::string::npos);
 }
 
 /// Places of a profile that knows its distances are those of one that does not, to the last bit.
