@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/solvers/kalker/contact_span.hpp"
 
 namespace treadmark::wheelrail {
@@ -20,6 +21,7 @@ constexpr double kFirstAcross = 16.0;
 constexpr double kGrown = 2.0;
 /// Where surfaces vary along the track, no element passes over what they hold between two of this size.
 constexpr double kLongestOnVarying = 0.5e-3;
+/// How often elements are chosen in one balance of forces.
 constexpr int kMostRounds = 3;
 
 double rounded_down(double size) {
@@ -111,12 +113,18 @@ void ElementChoice::expect(std::span<const detection::ContactPatch> regions) {
   }
 }
 
+void ElementChoice::begin_balance() {
+  rounds_ = std::min(rounds_, 1);
+  few_stay_ = false;
+}
+
 ElementSize ElementChoice::of(const detection::ContactPatch& region, double angle) {
   if (!active_ && !rough_) return {given_.dx, given_.ds};
   const Rectangle& box = region.extent.box;
+  const bool final_choice = rounds_ >= kMostRounds;
   ElementSize least{kInfinity, kInfinity};
   for (const Kept& one : kept_)
-    if (overlap(box, one.box) && !grown(box, one.box))
+    if (overlap(box, one.box) && ((final_choice && one.chosen) || !grown(box, one.box)))
       least = {std::min(least.dx, one.size.dx), std::min(least.ds, one.size.ds)};
   if (least.dx < kInfinity) return least;
   std::erase_if(kept_, [&](const Kept& one) { return overlap(box, one.box); });
@@ -125,22 +133,39 @@ ElementSize ElementChoice::of(const detection::ContactPatch& region, double angl
   return kept_.back().size;
 }
 
+bool ElementChoice::coarse(const PatchSolution& patch) const {
+  const kalker::ContactSpan span = kalker::contact_span(patch.grid, patch.contact.pressure);
+  return (given_.choose_dx && span.nx < kLeastAcross) || (given_.choose_ds && span.ny < kLeastAcross);
+}
+
+bool ElementChoice::only_looked_at(const PatchSolution& patch) const {
+  return coarse(patch) && ranges::any_of(kept_, [&](const Kept& one) {
+           return !one.chosen && overlap(patch.region.extent.box, one.box);
+         });
+}
+
 bool ElementChoice::learn(std::span<const PatchSolution* const> patches) {
   if (std::exchange(rough_, false)) {
     kept_.clear();
     return true;
   }
-  if (!active_ || rounds_ >= kMostRounds || patches.empty()) return false;
+  if (!active_) return false;
+  if (rounds_ >= kMostRounds) {
+    few_stay_ = ranges::any_of(patches, [&](const PatchSolution* patch) { return only_looked_at(*patch); });
+    return false;
+  }
+  few_stay_ = false;
+  if (patches.empty()) return false;
   std::vector<Kept> chosen;
   bool changed = false;
   for (const PatchSolution* patch : patches) {
     const kalker::ContactSpan span = kalker::contact_span(patch->grid, patch->contact.pressure);
     ElementSize size{patch->grid.dx, patch->grid.dy};
-    const bool coarse = (given_.choose_dx && span.nx < kLeastAcross) || (given_.choose_ds && span.ny < kLeastAcross);
+    const bool few = coarse(*patch);
     const kalker::PeakSharpness peak = kalker::peak_sharpness(patch->grid, patch->contact.pressure);
     const bool sharp = (given_.choose_dx && peak.x > kSharp) || (given_.choose_ds && peak.y > kSharp);
-    if (rounds_ == 0 || coarse || sharp) {
-      if (rounds_ == 0 || coarse) size = elements_for(span.length, span.width, longest_);
+    if (rounds_ == 0 || few || sharp) {
+      if (rounds_ == 0 || few) size = elements_for(span.length, span.width, longest_);
       // a peak within the patch, as at the edge of a profile that bends away
       size.dx = for_peak(size.dx, peak.x, patch->grid.dx, span.length);
       size.ds = for_peak(size.ds, peak.y, patch->grid.dy, span.width);
@@ -148,7 +173,7 @@ bool ElementChoice::learn(std::span<const PatchSolution* const> patches) {
       // Of a contact that is measured no better by smaller elements, as at an edge, they shrink for ever.
       changed = changed || rounds_ == 0 || size.dx < patch->grid.dx || size.ds < patch->grid.dy;
     }
-    chosen.push_back({patch->region.extent.box, size});
+    chosen.push_back({patch->region.extent.box, size, true});
   }
   ++rounds_;
   if (changed) kept_ = std::move(chosen);

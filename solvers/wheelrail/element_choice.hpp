@@ -47,21 +47,29 @@ class ElementChoice {
   bool few() const { return rough_ || (active_ && rounds_ == 0); }
   /// What interpenetrates, before its elements are laid: small contacts have few enough as they are given.
   void expect(std::span<const detection::ContactPatch> regions);
-  /// Elements of a patch with this contact angle [rad]. They stay with the patches that overlap it.
+  /// Forces are to be balanced at another place, or to another accuracy: elements may be chosen as often again.
+  void begin_balance();
+  /// Elements of a patch with this contact angle [rad]. They stay with the patches that overlap it; one that has grown
+  /// to more than twice the size is looked at anew, as long as elements may be chosen again.
   ElementSize of(const detection::ContactPatch& region, double angle);
   /// Chooses by what is in contact. False: nothing changes, or it has changed often enough.
   bool learn(std::span<const PatchSolution* const> patches);
+  /// Whether the last learn() left contact on few elements that had only been laid to look at it.
+  bool few_stay() const { return few_stay_; }
 
  private:
   struct Kept {
     Rectangle box;  ///< where the bodies interpenetrate, in T [m]
     ElementSize size;
+    bool chosen = false;  ///< by a contact, not only to look at one
   };
   ElementSize told(ElementSize size) const;
   ElementSize first(double length, double width) const;
+  bool coarse(const PatchSolution& patch) const;
+  bool only_looked_at(const PatchSolution& patch) const;
 
   Discretisation given_;
-  bool active_ = false, rough_ = false;
+  bool active_ = false, rough_ = false, few_stay_ = false;
   double longest_;
   int rounds_ = 0;
   std::vector<Kept> kept_;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/error.hpp"
+
 namespace treadmark::wheelrail {
 namespace {
 
@@ -14,23 +16,42 @@ double two_thirds(double x) { return std::copysign(std::cbrt(x * x), x); }
 
 }  // namespace
 
+double ForceBalance::Target::met(double begins, double stiffness) const {
+  const double most = at(begins);
+  if (!(most > 0.0)) return spring > 0.0 ? begins + most / spring : begins;
+  const double alone = two_thirds(most) / two_thirds(stiffness);
+  if (!(spring > 0.0)) return begins + alone;
+  // Contact and spring add up to what grows faster and faster: Newton's steps come down to its root from beyond.
+  double depth = std::min(alone, most / spring);
+  for (;;) {
+    const double mean = stiffness * std::sqrt(depth) + spring, slope = mean + 0.5 * stiffness * std::sqrt(depth);
+    const double less = depth - (mean * depth - most) / slope;
+    if (!(less < depth)) return begins + depth;
+    depth = less;
+  }
+}
+
 ForceBalance::ForceBalance(Target target, double tolerance, double stiffness, double end_slope)
     : target_(target),
       tolerance_(tolerance),
       stiffness_(stiffness),
       end_slope_(end_slope),
-      slope_(two_thirds(stiffness)) {}
+      reference_(two_thirds(target.level)),
+      slope_(two_thirds(stiffness)) {
+  if (!(stiffness > 0.0))
+    throw Error(ErrorKind::numerical, "a balance of forces begins with a contact of no stiffness");
+}
 
 double ForceBalance::first(double z_touch) {
-  before_ = {{z_touch, residual(z_touch, 0.0, 0.0)}};
+  next_ = met_ = target_.met(z_touch, stiffness_);
+  reference_ = two_thirds(wanted());
+  before_ = {{z_touch, phi(0.0, 0.0) - reference_}};
   from_touching_ = true;
-  next_ = z_touch + std::max(0.0, two_thirds(target_.at(z_touch))) / slope_;
   return next_;
 }
 
-double ForceBalance::residual(double z, double force, double least_gap) const {
-  const double phi = force > 0.0 ? two_thirds(force) : -two_thirds(stiffness_) * std::max(0.0, least_gap);
-  return phi - two_thirds(target_.at(z));
+double ForceBalance::phi(double force, double least_gap) const {
+  return force > 0.0 ? two_thirds(force) : -two_thirds(stiffness_) * std::max(0.0, least_gap);
 }
 
 void ForceBalance::restart() {
@@ -61,30 +82,37 @@ double ForceBalance::slope_at(const Point& p) const {
 }
 
 ForceBalance::State ForceBalance::add(double z, double force, double least_gap) {
-  const Point here{z, residual(z, force, least_gap)};
-  const bool found = std::abs(force - target_.at(z)) <= tolerance_ * std::abs(target_.at(z));
+  const double phi_here = phi(force, least_gap);
+  const Point here{z, phi_here - reference_};
   slope_ = slope_at(here);
+  const bool on_spring = target_.spring > 0.0;
+  met_ = on_spring ? target_.met(z - phi_here / slope_, std::pow(slope_, 1.5)) : z - here.residual / slope_;
   // Of a little change the accuracy of forces is too large a part.
   constexpr double kClear = 30.0;
   const bool two_contacts = before_.size() > (from_touching_ ? 1u : 0u);
-  if (two_contacts &&
-      std::abs(here.residual - before_.back().residual) > kClear * tolerance_ * two_thirds(target_.at(z)))
+  if (two_contacts && std::abs(here.residual - before_.back().residual) > kClear * tolerance_ * two_thirds(wanted()))
     measured_slope_ = slope_;
   if (before_.size() == 2) {
     before_.erase(before_.begin());
     from_touching_ = false;
   }
   before_.push_back(here);
-  next_ = z;
-  if (found) return State::found;
+  // Where the spring bears nothing, nothing need touch: a contact may lie between the elements there.
+  const bool unloaded = on_spring && !(force > 0.0) && target_.at(z) <= target_.spring * kLeastStep;
+  if (unloaded || std::abs(force - wanted()) <= tolerance_ * std::abs(wanted())) {
+    next_ = on_spring && !unloaded ? met_ : z;
+    return State::found;
+  }
 
-  bracket_.add(z, here.residual, force);
-  next_ = z - here.residual / slope_;
+  bracket_.add(z, phi_here - two_thirds(target_.at(z)), force);
+  next_ = met_;
   if (bracket_.closed()) {
-    // No contact is so stiff that its force changes by a thousandth within a nanometre.
-    constexpr double kJumpWidth = 1e-9, kJump = 1e-3;
+    // No contact is so stiff that its force changes by a thousandth within a nanometre. Stiff springs hold heights that
+    // close to each other from the beginning, under small loads, too: of the depth it is then a ten-thousandth.
+    constexpr double kJumpWidth = 1e-9, kJump = 1e-3, kOfDepth = 1e-4;
     const double width = bracket_.width(), rise = bracket_.value_above() - bracket_.value_below();
-    if (width < kLeastStep || (width < kJumpWidth && rise > kJump * std::abs(target_.at(z)))) return State::no_balance;
+    const double narrow = on_spring ? std::min(kJumpWidth, kOfDepth * two_thirds(wanted() / stiffness_)) : kJumpWidth;
+    if (width < kLeastStep || (width < narrow && rise > kJump * std::abs(wanted()))) return State::no_balance;
     next_ = bracket_.safeguarded(next_);
   }
   return State::search;

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/stopwatch.hpp"
 #include "treadmark/detection/contact_search.hpp"
 #include "treadmark/model/contact/theories.hpp"
@@ -50,9 +51,12 @@ bool PairStep::aligned() const {
 }
 
 bool PairStep::place(double rail_dy) {
+  patches_.clear();
+  between_.reset();
+  hidden_ = 0, closest_ = kNaN;
   Problem moved = problem_;
   moved.track.dy += rail_dy;
-  if (moved.vertical_force) moved.state.position.z = 0.0;
+  if (height_sought(moved)) moved.state.position.z = 0.0;
   start_z_ = moved.state.position.z;
   start_ = placement_ = treadmark::wheelrail::place(geometry_, moved, &rail_memory_);
   bodies_.X_TR = start_.X_TS, bodies_.X_TW = start_.X_TA;
@@ -170,12 +174,12 @@ void PairStep::resolve_forces(Patch& patch) const {
   s.moment_C = Vec3(c.moment_x, c.moment_y, c.moment_n) - arm.cross(s.force_C);
 }
 
-bool PairStep::stays(double eps) {
-  // Forces of a measured flat change by about eps then (docs/method.md).
+bool PairStep::stays(double z, double eps) {
+  // Forces of a measured flat change by about eps then, at sharp edges by more (docs/method.md).
   constexpr double kOfElement = 400.0, kTurn = 1.0;
   const Stopwatch watch(times_.search_s);
   ++times_.looks;
-  const std::vector<detection::ContactPatch> found = search_->at(z_ - start_z_).patches;
+  const std::vector<detection::ContactPatch> found = search_->at(z - start_z_).patches;
   const PatchSolution& s = patches_.front().solution;
   if (found.size() != 1 || found.front().parts.size() != s.region.parts.size()) return false;
   const detection::ContactPatch& here = found.front();

@@ -38,8 +38,8 @@ class PairStep {
            std::vector<kalker::ContactSolver>& solvers, std::vector<kalker::ContactSolver>& few_solvers,
            PhaseTimes& times, detection::BodyPair bodies, RailMemory& rail_memory);
 
-  /// Puts the rail aside by rail_dy [m]. False: wheel and rail nowhere face each other; at a given height evaluate()
-  /// finds that out, its least_gap() is no number then.
+  /// Puts the rail aside by rail_dy [m]; of what was found at another place start values are left. False: wheel and
+  /// rail nowhere face each other; at a given height evaluate() finds that out, its least_gap() is no number then.
   bool place(double rail_dy);
   /// No force asks for another height of the wheelset than that of its state.
   bool at_given_height() const;
@@ -49,15 +49,19 @@ class PairStep {
   /// Vertical force of paraboloids that interpenetrate as the bodies do with the wheelset at height z, over the depth
   /// there to the power 1.5 [N/m^1.5]; 0: nothing interpenetrates. A guess, without patches or pressures.
   double stiffness_guess(double z);
-  /// Of a step that carries its load: whether its elements lie where those laid for z() would, as far as forces of
-  /// relative accuracy eps can tell.
-  bool stays(double eps);
+  /// Of a step that carries its load: whether its elements lie where those laid for height z would, as far as forces
+  /// of relative accuracy eps can tell.
+  bool stays(double z, double eps);
   /// Whether elements are chosen by the contact.
   bool chooses_elements() const { return elements_.active(); }
   /// Whether elements are few: evaluate() before learn_elements() is a first guess.
   bool few_elements() const { return elements_.few(); }
+  /// As ElementChoice.
+  void begin_balance() { elements_.begin_balance(); }
   /// Chooses elements by the contact of the last evaluate(). False: they stay.
   bool learn_elements();
+  /// As ElementChoice::few_stay().
+  bool few_elements_stay() const { return elements_.few_stay(); }
   /// Patches and pressures with the wheelset at height z over the undeflected rail. One patch on a plane is solved
   /// under the load, if given: force_T() has this vertical part [N], on elements that were laid for height z.
   void evaluate(double z, std::optional<double> load = {});

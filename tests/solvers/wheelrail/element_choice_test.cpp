@@ -181,6 +181,60 @@ TEST(ElementChoice, OneSideMayBeGiven) {
   EXPECT_GE(span_of(patch).nx, kLeastAcross);
 }
 
+/// A round contact of this radius [m] in the middle of a region, pressed as Hertz has it.
+PatchSolution round_contact(double radius, const detection::ContactPatch& region, ElementSize size) {
+  const auto half = [&](double side) { return static_cast<int>(std::ceil(radius / side)); };
+  const int nx = half(size.dx), ny = half(size.ds);
+  PatchSolution patch;
+  patch.region = region;
+  patch.grid = {-nx * size.dx, -ny * size.ds, size.dx, size.ds, 2 * nx + 1, 2 * ny + 1};
+  for (int iy = 0; iy < patch.grid.ny; ++iy)
+    for (int ix = 0; ix < patch.grid.nx; ++ix) {
+      const double r = std::hypot(patch.grid.x(ix), patch.grid.y(iy)) / radius;
+      patch.contact.pressure.push_back(std::sqrt(std::max(0.0, 1.0 - r * r)));
+    }
+  return patch;
+}
+
+// Heights that are tried on the way to a balance throw away what was chosen: in the end it is chosen all the same, and
+// where it cannot be any more, that is said.
+TEST(ElementChoice, NothingStaysOnFewElementsUnsaid) {
+  constexpr double kRadius = 5e-3;
+  ElementChoice choice(standard_geometry(), chosen(standard_problem()), false);
+  const auto region = [](double half, double y) {
+    detection::ContactPatch patch;
+    patch.extent.box = {-half, half, y - half, y + half};
+    return patch;
+  };
+  const auto learn = [&](const detection::ContactPatch& here) {
+    const PatchSolution patch = round_contact(kRadius, here, choice.of(here, 0.0));
+    const PatchSolution* one = &patch;
+    return choice.learn({&one, 1});
+  };
+  const auto across = [&](const detection::ContactPatch& here) {
+    const ElementSize size = choice.of(here, 0.0);
+    return 2.0 * kRadius / std::max(size.dx, size.ds);
+  };
+  const detection::ContactPatch here = region(8e-3, 0.0), deep = region(30e-3, 0.0), aside = region(8e-3, 0.1);
+  choice.begin_balance();
+  EXPECT_TRUE(choice.few());
+  ASSERT_TRUE(learn(here));
+  int chosen_again = 0;
+  do {
+    EXPECT_GE(across(here), kLeastAcross);
+    choice.of(deep, 0.0);
+  } while (learn(here) && ++chosen_again < 10);
+  EXPECT_LE(chosen_again, 2);
+  EXPECT_GE(across(here), kLeastAcross);
+  EXPECT_FALSE(choice.few_stay());
+  EXPECT_FALSE(learn(aside));
+  EXPECT_TRUE(choice.few_stay()) << "nothing was chosen there";
+  choice.begin_balance();
+  EXPECT_FALSE(choice.few_stay() || choice.few());
+  EXPECT_TRUE(learn(aside));
+  EXPECT_GE(across(aside), kLeastAcross);
+}
+
 TEST(ElementChoice, OneRasterInTime) {
   Problem p = chosen(standard_problem());
   p.regime = kalker::Regime::transient;

@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <tuple>
+
+#include "treadmark/core/error.hpp"
 
 namespace treadmark::wheelrail {
 namespace {
@@ -17,8 +21,8 @@ struct Outcome {
   int evaluations;
 };
 
-Outcome iterate(double target, double z_touch, double guess, const std::function<double(double)>& force) {
-  ForceBalance balance({.level = target}, 1e-6, guess);
+Outcome iterate(ForceBalance::Target target, double z_touch, double guess, const std::function<double(double)>& force) {
+  ForceBalance balance(target, 1e-6, guess);
   double z = balance.first(z_touch);
   auto state = ForceBalance::State::search;
   int n = 0;
@@ -27,7 +31,11 @@ Outcome iterate(double target, double z_touch, double guess, const std::function
     state = balance.add(z, force(z), std::max(0.0, z_touch - z));
     if (state == ForceBalance::State::search) z = balance.next();
   }
-  return {state, z, n};
+  return {state, state == ForceBalance::State::found ? balance.next() : z, n};
+}
+
+Outcome iterate(double target, double z_touch, double guess, const std::function<double(double)>& force) {
+  return iterate(ForceBalance::Target{.level = target}, z_touch, guess, force);
 }
 
 TEST(ForceBalance, HertzianContactTakesFewSteps) {
@@ -87,6 +95,48 @@ TEST(ForceBalance, SecondContactThatOpensOnTheWay) {
 TEST(ForceBalance, SaysWhenTheForceJumpsOverTheTarget) {
   const auto force = [](double z) { return z > 1e-4 ? 2e5 : 5e4; };
   EXPECT_EQ(iterate(1.25e5, 0.0, 8e10, force).state, ForceBalance::State::no_balance);
+}
+
+// Where a contact carries a load is chosen, and the spring unloaded so far below that it takes the same there.
+TEST(ForceBalance, SpringsOfAnyStiffnessMeetTheContact) {
+  constexpr double kTouching = 3e-4, kStiffness = 9e10, kEps = 1e-6;
+  const auto force = [](double z) {
+    const double depth = std::max(0.0, z - kTouching);
+    return kStiffness * std::pow(depth, 1.5) * (1.0 + 1e3 * depth);
+  };
+  for (double spring = 1e5; spring < 2e13; spring *= 10.0)
+    for (const double depth : {1e-6, 2e-5, 1e-4, 2e-4})
+      for (const double guess : {0.3, 1.0, 3.0}) {
+        SCOPED_TRACE(::testing::Message() << "spring " << spring << ", depth " << depth << ", guess " << guess);
+        const double load = force(kTouching + depth);
+        const ForceBalance::Target target{load + spring * (kTouching + depth), spring};
+        const Outcome o = iterate(target, kTouching, guess * kStiffness, force);
+        EXPECT_EQ(o.state, ForceBalance::State::found);
+        EXPECT_NEAR(o.z, kTouching + depth, 5.0 * kEps * depth);
+        EXPECT_NEAR(target.at(o.z), load, 5.0 * kEps * load);
+        EXPECT_LE(o.evaluations, 7);
+      }
+}
+
+TEST(ForceBalance, ASpringThatBearsNothingNeedsNoContact) {
+  // What touches lies between elements and carries nothing: down to where the spring is unloaded.
+  constexpr double kUnloaded = 1e-6;
+  const Outcome o = iterate({.level = 1e9 * kUnloaded, .spring = 1e9}, 0.0, 9e10, [](double) { return 0.0; });
+  EXPECT_EQ(o.state, ForceBalance::State::found);
+  EXPECT_NEAR(o.z, kUnloaded, 1e-12);
+}
+
+TEST(ForceBalance, SaysWhenTheForceJumpsOverTheSpring) {
+  const auto force = [](double z) { return z > 1e-4 ? 2e5 : z > 0.0 ? 5e4 : 0.0; };
+  for (const double spring : {1e6, 1e9, 1e13}) {
+    const ForceBalance::Target target{.level = 1.25e5 + 1e-4 * spring, .spring = spring};
+    EXPECT_EQ(iterate(target, 0.0, 8e10, force).state, ForceBalance::State::no_balance) << spring;
+  }
+}
+
+TEST(ForceBalance, RefusesAContactThatDoesNotStiffen) {
+  for (const double stiffness : {0.0, -1e10, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(ForceBalance({.level = 1e5}, 1e-6, stiffness), Error) << stiffness;
 }
 
 TEST(ForceBalance, ComesBackFromLostContact) {

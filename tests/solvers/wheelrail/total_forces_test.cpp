@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -10,7 +11,10 @@
 #include "solution_bytes.hpp"
 #include "standard_pair.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/random.hpp"
+#include "treadmark/solvers/kalker/contact_span.hpp"
 #include "treadmark/solvers/kalker/halfspace/influence_kernel.hpp"
+#include "treadmark/solvers/wheelrail/element_choice.hpp"
 #include "treadmark/solvers/wheelrail/root_search.hpp"
 
 namespace treadmark::wheelrail {
@@ -120,6 +124,127 @@ TEST(TotalForces, RailOnSpringsUnderAPrescribedHeight) {
   }
   p.state.position.z = -1e-3;
   EXPECT_EQ(pair.solve(p).status, Status::no_contact);
+}
+
+/// Springs at rest, and the contact that the same force makes on a rail that lies where they let it go, on the same
+/// elements; of chosen ones at least as many as promised.
+void expect_contact_of_its_force(const Problem& p, const PairSolution& s) {
+  const double load = s.load.track.force.norm();
+  expect_spring_balance(s, *p.rail_springs, 2.0 * p.solver.eps * load);
+  if (s.status != Status::ok || s.patches.empty()) return;
+  EXPECT_NEAR(s.z, p.state.position.z, 1e-12);
+  Problem rigid = p;
+  rigid.rail_springs.reset();
+  rigid.track.dy += s.rail_deflection_y;
+  rigid.track.dz += s.rail_deflection_z;
+  rigid.vertical_force = s.load.track.force.z();
+  const bool chosen = p.discretisation.choose_dx;
+  if (chosen) {
+    for (const PatchSolution& patch : s.patches) {
+      const kalker::ContactSpan span = kalker::contact_span(patch.grid, patch.contact.pressure);
+      EXPECT_GE(std::min(span.nx, span.ny), kLeastAcross);
+    }
+    if (s.patches.size() > 1) return;
+    rigid.discretisation.choose_dx = rigid.discretisation.choose_ds = false;
+    rigid.discretisation.dx = s.patches[0].grid.dx, rigid.discretisation.ds = s.patches[0].grid.dy;
+  }
+  const PairSolution r = Pair(standard_geometry()).solve(rigid);
+  ASSERT_EQ(r.status, Status::ok) << r.message;
+  ASSERT_EQ(r.patches.size(), s.patches.size());
+  // Of chosen elements the search has other steps.
+  const double accuracy = chosen ? 1e-3 : 1e-4;
+  EXPECT_NEAR(r.z, s.z, accuracy * s.patches[0].approach);
+  EXPECT_NEAR((r.load.track.force - s.load.track.force).norm(), 0.0, accuracy * load);
+  for (std::size_t k = 0; k < r.patches.size(); ++k)
+    EXPECT_NEAR(r.patches[k].contact.max_pressure / s.patches[k].contact.max_pressure, 1.0, 10.0 * accuracy);
+}
+
+// Where a rail stands under a load is chosen, and springs of any stiffness are unloaded so far aside that they hold it
+// there.
+TEST(TotalForces, SpringsOfAnyStiffnessFindTheContactOfTheirForce) {
+  constexpr int kProblems = 36;
+  Pair pair(standard_geometry());
+  Random random(11);
+  const auto between = [&](double low, double high) { return low + (high - low) * random.uniform(); };
+  for (int i = 0; i < kProblems; ++i) {
+    Problem p = standard_problem();
+    p.state.position.y = between(-3e-3, 4e-3);
+    p.discretisation.choose_dx = p.discretisation.choose_ds = i % 3 == 2;
+    // there the height is sought, not solved for
+    if (i % 4 == 3) p.reference_surface = ReferenceSurface::plane_surface_slip;
+    // creep forces may rise as a soft spring gives way, and there may be no balance
+    const bool rolls = i % 2 == 1;
+    if (!rolls) p.regime = kalker::Regime::frictionless;
+    RailSprings k{.stiffness_y = std::pow(10.0, between(rolls ? 7.5 : 5.0, 13.0)),
+                  .stiffness_z = std::pow(10.0, between(5.0, 13.0))};
+    const double load = std::pow(10.0, between(3.5, 5.1)),
+                 dy = std::min(3e-4, 1e4 / k.stiffness_y) * between(-1.0, 1.0);
+    SCOPED_TRACE(::testing::Message() << i << ": y " << p.state.position.y << " m, " << load << " N, springs "
+                                      << k.stiffness_y << " and " << k.stiffness_z << " N/m, deflection " << dy
+                                      << " m");
+    p.vertical_force = load;
+    Problem rigid = p;
+    rigid.track.dy += dy;
+    const PairSolution r = pair.solve(rigid);
+    ASSERT_EQ(r.status, Status::ok) << r.message;
+    k.force_y = k.stiffness_y * dy - r.load.track.force.y();
+    k.force_z = between(-1e3, 1e3);
+    p.state.position.z = r.z + (load + k.force_z) / k.stiffness_z;
+    p.vertical_force.reset();
+    p.rail_springs = k;
+    const PairSolution s = pair.solve(p);
+    expect_contact_of_its_force(p, s);
+    EXPECT_NEAR(s.load.track.force.z(), load, 0.02 * load);
+    if (i % 6 == 0) {
+      EXPECT_EQ(SolutionBytes::of(Pair(standard_geometry()).solve(p)), SolutionBytes::of(s));
+    }
+  }
+}
+
+Problem rolling_straight() {
+  Problem p;
+  p.track.cant = 1.0 / 40.0;
+  p.state.velocity = {.x = 20.0, .pitch = -20.0 / kStandardRadius};
+  p.discretisation.dx = p.discretisation.ds = 0.4e-3;
+  return p;
+}
+
+// From springs as stiff as a contact on: heights and deflections that are found in a few searches.
+TEST(TotalForces, StiffSpringsTakeFewSearches) {
+  struct Held {
+    double y, z, stiffness_y, stiffness_z;
+    bool chosen;
+  };
+  constexpr int kMost = 16;
+  for (const Held& scene : {Held{0.0, 0.183e-3, 1e7, 6e8, true}, Held{0.0, 0.232e-3, 1e9, 1e10, false},
+                            Held{0.0, 0.232e-3, 1e9, 1e10, true}, Held{5.5e-3, -0.28e-3, 1e9, 1e9, true},
+                            Held{5.5e-3, 1.135e-3, 1e7, 1e8, false}, Held{5.5e-3, 1.135e-3, 1e12, 1e8, false},
+                            Held{0.0, 1.682e-3, 1e6, 1e8, false}}) {
+    SCOPED_TRACE(::testing::Message() << "y " << scene.y << ", z " << scene.z << ", springs " << scene.stiffness_y
+                                      << " and " << scene.stiffness_z << (scene.chosen ? ", chosen" : ""));
+    Problem p = rolling_straight();
+    p.state.position = {.y = scene.y, .z = scene.z};
+    p.discretisation.choose_dx = p.discretisation.choose_ds = scene.chosen;
+    p.rail_springs = RailSprings{.stiffness_y = scene.stiffness_y, .stiffness_z = scene.stiffness_z};
+    const PairSolution s = Pair(standard_geometry()).solve(p);
+    EXPECT_GT(s.load.track.force.z(), 0.0);
+    expect_contact_of_its_force(p, s);
+    EXPECT_LE(s.times.searches, kMost);
+  }
+}
+
+// A rail that gives way until no wheel is over it: nothing is left of where it was before.
+TEST(TotalForces, ARailThatGivesWayFromBelowTheWheelHasNoNumbers) {
+  Problem p = rolling_straight();
+  p.vertical_force = 1e5;
+  p.rail_springs = RailSprings{.stiffness_y = 1e3, .stiffness_z = 1e3};
+  const PairSolution s = Pair(standard_geometry()).solve(p);
+  EXPECT_EQ(s.status, Status::no_contact);
+  EXPECT_NE(s.message.find("off the rail"), std::string::npos) << s.message;
+  EXPECT_TRUE(s.patches.empty());
+  EXPECT_EQ(s.load.track.force.norm(), 0.0);
+  EXPECT_TRUE(std::isnan(s.least_gap));
+  for (const double number : {s.z, s.rail_deflection_y, s.rail_deflection_z}) EXPECT_EQ(number, 0.0);
 }
 
 TEST(TotalForces, SpringsAndLongitudinalForceAtOnce) {
