@@ -423,14 +423,14 @@ void add_derivatives(io::RunResult& result, const io::CaseFile& file, SurfaceSto
                      const std::vector<std::string>& keys, const Progress& progress) {
   check_derivative_keys(file, keys);
   const SampledRegions regions = sampled_regions(file);
-  auto c = file.cases.begin();
+  const std::vector<const io::Case*> c = solved_cases(file, result);
   std::size_t finished = 0;
   try {
     const CancellationScope scope(progress.stop);
-    for (io::CaseResult& solved : result.cases) {
+    for (std::size_t i = 0; i < result.cases.size(); ++i) {
+      io::CaseResult& solved = result.cases[i];
       check_cancelled();
-      while (c->number != solved.number) ++c;
-      solved.derivatives = derivatives_of(*c, store, regions, keys, solved);
+      solved.derivatives = derivatives_of(*c[i], store, regions, keys, solved);
       if (progress.report)
         progress.report(++finished, result.cases.size(), fmt::format("derivatives of case {}", solved.number));
     }

@@ -42,12 +42,7 @@ void describe_results(const io::CaseFile& file, const ProfilesOfRun& profiles, S
   const NeverCancelled whole;
   run.doubts = profile_doubts(profiles);
   ResultNotes notes(profiles, store);
-  std::vector<const io::Case*> cases;
-  auto c = file.cases.begin();
-  for (const io::CaseResult& result : run.cases) {
-    while (c->number != result.number) ++c;
-    cases.push_back(&*c);
-  }
+  const std::vector<const io::Case*> cases = solved_cases(file, run);
   parallel_for(cases.size(), [&](std::size_t i) { notes.add(*cases[i], *cases[i], run.cases[i]); });
 }
 

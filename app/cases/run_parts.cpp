@@ -32,6 +32,16 @@ io::RunResult head_of(const io::CaseFile& file) {
   return run;
 }
 
+std::vector<const io::Case*> solved_cases(const io::CaseFile& file, const io::RunResult& run) {
+  std::vector<const io::Case*> out;
+  auto c = file.cases.begin();
+  for (const io::CaseResult& result : run.cases) {
+    while (c->number != result.number) ++c;
+    out.push_back(&*c);
+  }
+  return out;
+}
+
 void ResultNotes::add(const io::Case& given, const io::Case& c, io::CaseResult& result) {
   const auto* input = std::get_if<io::WheelRailCase>(&c.content);
   if (input == nullptr) return;

@@ -5,6 +5,7 @@
 #include <map>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include "treadmark/app/cases/noise_of_results.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
@@ -23,6 +24,9 @@ wheelrail::Geometry geometry_of(const io::WheelRailCase& input, SurfaceStore& st
 
 /// A result that says where it comes from, without cases.
 io::RunResult head_of(const io::CaseFile& file);
+
+/// The case of the file that each result is of.
+std::vector<const io::Case*> solved_cases(const io::CaseFile& file, const io::RunResult& run);
 
 /// What is to be said of results on surfaces that are there, and what noise of measured profiles leaves uncertain. The
 /// arguments of the constructor must outlive it, and nobody else may use the store meanwhile. Thread-safe.

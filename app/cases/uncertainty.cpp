@@ -404,21 +404,21 @@ bool may_have_error_bars(const io::CaseFile& file, SurfaceStore& store) {
 
 void add_uncertainty(io::RunResult& result, const io::CaseFile& file, SurfaceStore& store, const Progress& progress) {
   const SampledRegions regions = sampled_regions(file);
-  auto c = file.cases.begin();
+  const std::vector<const io::Case*> c = solved_cases(file, result);
   std::size_t finished = 0;
   try {
     const CancellationScope scope(progress.stop);
-    for (io::CaseResult& solved : result.cases) {
-      while (c->number != solved.number) ++c;
-      if (!wants_error_bars(*c)) continue;
+    for (std::size_t i = 0; i < result.cases.size(); ++i) {
+      io::CaseResult& solved = result.cases[i];
+      if (!wants_error_bars(*c[i])) continue;
       check_cancelled();
-      const bool of_surfaces = std::get<io::WheelRailCase>(c->content).uncertainty.empty();
+      const bool of_surfaces = std::get<io::WheelRailCase>(c[i]->content).uncertainty.empty();
       const std::size_t samples = of_surfaces ? kSurfaceSamples : kSamples;
       const auto tell = [&](const std::string& more) {
         if (progress.report)
           progress.report(finished, result.cases.size(), fmt::format("uncertainty of case {}{}", solved.number, more));
       };
-      solved.uncertainty = uncertainty_of(*c, solved, store, regions, samples, [&](std::size_t drawn) {
+      solved.uncertainty = uncertainty_of(*c[i], solved, store, regions, samples, [&](std::size_t drawn) {
         tell(fmt::format(", {} of {} solutions", drawn, samples));
       });
       ++finished;

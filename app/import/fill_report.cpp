@@ -16,7 +16,6 @@
 namespace treadmark::app {
 namespace {
 
-using scans::PointState;
 constexpr std::size_t kMostDots = 6000;
 
 /// The cells of the points as a map that begins at the least u, wherever the band itself begins.
@@ -71,9 +70,7 @@ void fill_maps(const ImportFindings& found, io::ImportReport& report) {
       n += counts(i) ? 1 : 0;
     return n;
   };
-  const auto inside = [&](std::size_t i) {
-    return points.state[i] == PointState::used || points.state[i] == PointState::held_out;
-  };
+  const auto inside = [&](std::size_t i) { return scans::is_of_surface(points.state[i]); };
   report.density = map_of(found, frame, [&](std::size_t r, std::size_t c) {
     return static_cast<double>(count(r, c, [](std::size_t) { return true; })) / cell;
   });
@@ -146,7 +143,7 @@ void fill_sections(const ImportFindings& found, io::ImportReport& report) {
   std::vector<std::uint8_t> used(found.scan.points.size(), 0);
   const scans::BandPoints& points = found.projection.points;
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (points.state[i] == PointState::used || points.state[i] == PointState::held_out) used[points.index[i]] = 1;
+    if (scans::is_of_surface(points.state[i])) used[points.index[i]] = 1;
   if (found.sections != nullptr)
     for (const auto& section : found.sections->points)
       for (const std::uint32_t i : section) used[i] = 1;
@@ -163,8 +160,6 @@ void fill_sections(const ImportFindings& found, io::ImportReport& report) {
   report.nominal_section = found.scan.nominal;
 }
 
-bool was_used(PointState state) { return state == PointState::used || state == PointState::held_out; }
-
 void fill_residuals(const ImportFindings& found, io::ImportReport& report) {
   const scans::BandPoints& points = found.projection.points;
   constexpr std::size_t kBins = 80;
@@ -175,7 +170,7 @@ void fill_residuals(const ImportFindings& found, io::ImportReport& report) {
   std::vector<float> all;
   all.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!was_used(points.state[i])) continue;
+    if (!scans::is_of_surface(points.state[i])) continue;
     const double r = found.fit.residual[i];
     all.push_back(static_cast<float>(r));
     const double place = 0.5 * (r / report.residual_range + 1.0) * kBins;
@@ -233,11 +228,11 @@ void fill_cloud(const ImportFindings& found, io::ImportReport& report) {
   std::vector<std::uint8_t> used(found.scan.points.size(), 0);
   std::size_t count = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (was_used(points.state[i])) used[points.index[i]] = 1, ++count;
+    if (scans::is_of_surface(points.state[i])) used[points.index[i]] = 1, ++count;
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   EvenChoice choice(count, kMost, 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!was_used(points.state[i]) || !choice.next()) continue;
+    if (!scans::is_of_surface(points.state[i]) || !choice.next()) continue;
     const Vec3 p_S = X_SC.apply(found.scan.points[points.index[i]]);
     low = low.cwiseMin(p_S);
     high = high.cwiseMax(p_S);

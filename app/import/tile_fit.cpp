@@ -20,8 +20,6 @@ using scans::PointState;
 
 constexpr std::size_t kFewestOfTile = 1000;  // points that a fit makes sense with
 
-bool counts_in_fit(PointState state) { return state == PointState::used || state == PointState::held_out; }
-
 class TileFit {
  public:
   TileFit(const TilePlan& plan, std::size_t tile, const TilePoints& points)
@@ -151,7 +149,7 @@ class TileFit {
         for (std::size_t i = points.first(row, column); i < points.begin[row * points.columns + column + 1]; ++i) {
           out_.outliers += points.state[i] == PointState::outlier ? 1 : 0;
           out_.duplicates += points.state[i] == PointState::off_band ? 1 : 0;
-          if (!counts_in_fit(points.state[i])) continue;
+          if (!scans::is_of_surface(points.state[i])) continue;
           const double r = fit.residual[i], square = r * r;
           const bool held_out = points.state[i] == PointState::held_out;
           ++(held_out ? out_.held_out : out_.used);
@@ -174,7 +172,7 @@ class TileFit {
         double all = 0.0, removed = 0.0, sum = 0.0;
         for (std::size_t row = from; row < to; ++row)
           for (std::size_t i = points.first(row, column); i < points.begin[row * points.columns + column + 1]; ++i) {
-            const bool counts = counts_in_fit(points.state[i]);
+            const bool counts = scans::is_of_surface(points.state[i]);
             all += 1.0, removed += counts ? 0.0 : 1.0;
             sum += counts ? static_cast<double>(fit.residual[i]) : 0.0;
           }

@@ -122,7 +122,7 @@ TriangleMesh free_triangles(const FittedScan& fit, const io::ImportSettings& set
   std::vector<Vec3> points, outward;
   const Pose X_SC = fit.scan.placement.X_CS.inverse();
   for (std::size_t i = 0; i < fit.points.size(); ++i) {
-    if (fit.points.state[i] != scans::PointState::used && fit.points.state[i] != scans::PointState::held_out) continue;
+    if (!scans::is_of_surface(fit.points.state[i])) continue;
     const Vec3 p = X_SC.apply(fit.scan.points[fit.points.index[i]]);
     points.push_back(p);
     outward.push_back(scans::direction(fit.scan.body, natural(fit.scan.body, p).u,

@@ -235,11 +235,13 @@ ResponseRun run_response(const ResponseRequest& request, const Progress& progres
     auto curve = run.curves.begin();
     for (std::size_t i = 0; i < chosen_inputs.size(); ++i)
       for (const std::size_t c : chosen) (curve++)->values.push_back(channels.parts[c](all[i], omega));
+    std::vector<double> densities;
+    for (const auto& source : sources) densities.push_back(source.density(wavenumber));
     for (std::size_t k = 0; k < run.spectra.size(); ++k) {
       double sum = 0.0;
       for (std::size_t i = 0; i < sources.size(); ++i)
-        sum += std::norm(channels.parts[chosen[k]](all[chosen_inputs.size() + i], omega)) *
-               sources[i].density(wavenumber) * 2.0 * std::numbers::pi / run.speed;
+        sum += std::norm(channels.parts[chosen[k]](all[chosen_inputs.size() + i], omega)) * densities[i] * 2.0 *
+               std::numbers::pi / run.speed;
       run.spectra[k].density.push_back(sum);
     }
   }

@@ -238,12 +238,15 @@ void check_sum(std::string_view text, const SliceList& list, const std::filesyst
               {list.set.name, line + 1, 1}, "write them again; if they were changed on purpose, remove this line");
 }
 
+/// [m] along a rail, [rad] about a wheel
+double place_of(const SliceEntry& entry, Body body) { return body == Body::rail ? 1e-3 * entry.u : entry.u; }
+
 SliceSet load_profiles(SliceList&& list, Body body, const SliceLoader& load) {
   SliceSet set = std::move(list.set);
   std::size_t points = 0;
   for (std::size_t i = 0; i < list.entries.size(); ++i) {
     const SliceEntry& entry = list.entries[i];
-    set.u.push_back(body == Body::rail ? 1e-3 * entry.u : entry.u);
+    set.u.push_back(place_of(entry, body));
     set.profiles.push_back(load(entry.name, entry.where_name));
     points += set.profiles.back().y.size();
     if (points > kMostPointsOfAllSlices)
@@ -328,7 +331,7 @@ SliceFile::~SliceFile() = default;
 
 std::vector<double> SliceFile::u() const {
   std::vector<double> out;
-  for (const SliceEntry& entry : content_->from.list.entries) out.push_back(1e-3 * entry.u);
+  for (const SliceEntry& entry : content_->from.list.entries) out.push_back(place_of(entry, Body::rail));
   return out;
 }
 
@@ -341,7 +344,7 @@ SliceSet SliceFile::read(std::size_t from, std::size_t to) const {
   out.u.resize(to - from);
   out.profiles.resize(to - from);
   parallel_for(to - from, [&](std::size_t k) {
-    out.u[k] = 1e-3 * content_->from.list.entries[from + k].u;
+    out.u[k] = place_of(content_->from.list.entries[from + k], Body::rail);
     out.profiles[k] = content_->profile(from + k);
   });
   return out;

@@ -13,7 +13,7 @@
 
 namespace treadmark::io {
 
-/// A slices file of a rail with so many slices that they are read some at a time. Thread-safe once it is made.
+/// A slices file of a rail with so many slices that they are read some at a time. Thread-safe after check().
 class SliceFile {
  public:
   /// Reads the list alone. Errors: as read_slices, of the list.
@@ -28,7 +28,8 @@ class SliceFile {
   /// What all slices decide together, before any is read: their check sum, and which way up they are. Errors: as
   /// read_slices.
   void check();
-  /// Slices [from, to), as those of the whole set. Errors: as read_slices, for files that have changed since.
+  /// Slices [from, to), as those of the whole set, of any number of points. Errors: as read_slices, for files that have
+  /// changed since.
   SliceSet read(std::size_t from, std::size_t to) const;
 
  private:

@@ -27,6 +27,9 @@ struct Band {
 
 enum class PointState : std::uint8_t { used, held_out, outlier, off_band };
 
+/// Of the surface, also where the fit is tested by it.
+inline bool is_of_surface(PointState state) { return state == PointState::used || state == PointState::held_out; }
+
 /// Points on a band, sorted into even cells: row after row of equal a, in a row by s.
 struct BandPoints {
   std::vector<float> a, s, d;        ///< a counts from the band's a_min

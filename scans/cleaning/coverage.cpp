@@ -59,7 +59,7 @@ class CoverageSearch {
     present_.assign(rows_ * columns_, 0);
     for (std::size_t k = 0; k < present_.size(); ++k)
       for (std::size_t i = points.begin[k]; i < points.begin[k + 1] && present_[k] == 0; ++i)
-        present_[k] = points.state[i] == PointState::used || points.state[i] == PointState::held_out ? 1 : 0;
+        present_[k] = is_of_surface(points.state[i]) ? 1 : 0;
   }
 
   Coverage found() {

@@ -62,7 +62,7 @@ struct ContactReaction {
   double rail_power = 0.0;                  ///< of this, by dampers of a rail that bends [W]
   double corrected = 0.0;                   ///< what a linearisation inside the element changed the force by [N]
   double check_force = 0.0;                 ///< of a check rail on the back of the flange, part of both loads [N]
-  double full_share = 0.0;                  ///< of a contact in full, where the element has a table, too; 0 to 1
+  double full_share = 0.0;  ///< of the full contact, where the element chooses between it and a table; 0 to 1
   double table_error = 0.0, table_wear_error = 0.0;  ///< as TableDeviation, where the element finds it
   RailMotion bending;                                ///< of the rail at the contact, beside the motion of its body
   std::vector<PatchTangent> tangents;

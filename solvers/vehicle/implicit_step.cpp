@@ -237,11 +237,11 @@ Step ImplicitStep::take(const Motion& from, double h) {
 
   Step step;
   Vector a = predicted_acceleration(from, h);
+  couple(state_of(a), line, from, h, response);
   for (; step.iterations < settings_.max_iterations; ++step.iterations) {
     const SystemState at = state_of(a);
     const Vector stops = vehicle_.other_forces(at, line);
     Vector right = known + (1.0 + alpha_) * stops;
-    couple(at, line, from, h, response);
     for (const ElementShare& c : couplers_) c.elements.add_to(right, response.force(c.columns), 1.0 + alpha_);
     if (line) line->add_couplers_aside(response.force, 1.0 + alpha_, right);
     std::vector<Matrix> give;

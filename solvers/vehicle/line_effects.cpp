@@ -244,12 +244,11 @@ LineState LineEffects::state(double time) const {
 
 Vec3 LineEffects::felt_acceleration(const Vec3& place, double time) const {
   const Travel now = travel(time);
-  const double climbing =
-      setup_.free_run ? setup_.gravity * gradient_at(*setup_.free_run, setup_.start + now.distance + place.x()) : 0.0;
-  if (!setup_.path) return {now.acceleration + climbing, 0.0, 0.0};
+  const double climbed = setup_.free_run ? climbing(place.x(), now) : 0.0;
+  if (!setup_.path) return {now.acceleration + climbed, 0.0, 0.0};
   const Frame f = frame(place.x(), now);
   Vec3 felt = f.acceleration({0.0, place.y(), place.z()}, now) - setup_.gravity * Vec3(0.0, f.sine, f.cosine - 1.0);
-  if (setup_.free_run) felt.x() += climbing;
+  if (setup_.free_run) felt.x() += climbed;
   return felt;
 }
 
@@ -259,11 +258,14 @@ Vec3 LineEffects::frame_spin(double x, double time) const {
   return now.speed * frame(x, now).turn;
 }
 
+/// Of the gradient at a place of the vehicle in a free run [m/s2].
+double LineEffects::climbing(double x, const Travel& travel) const {
+  return setup_.gravity * gradient_at(*setup_.free_run, setup_.start + travel.distance + x);
+}
+
 /// Of gradient and resistance on a body at a place of the vehicle, over its mass [m/s2].
 double LineEffects::held_back(double x, const Travel& travel) const {
-  const FreeRun& run = *setup_.free_run;
-  return setup_.gravity * gradient_at(run, setup_.start + travel.distance + x) +
-         resistance_at(run, travel.speed) / mass_;
+  return climbing(x, travel) + resistance_at(*setup_.free_run, travel.speed) / mass_;
 }
 
 void LineEffects::add_inertia(LineState& out, const Travel& travel) const {

@@ -102,6 +102,7 @@ class LineEffects {
 
  private:
   struct Frame;
+  double climbing(double x, const Travel& travel) const;
   double held_back(double x, const Travel& travel) const;
   double clock(double time) const { return setup_.stays ? 0.0 : time; }
   Frame frame(double x, const Travel& travel) const;

@@ -66,8 +66,7 @@ class Assembly {
       body.axle_boxes = body.fixed_while_preloading = true;
     }
     const std::size_t bodies = bodies_.size();
-    int vehicles = 0;
-    for (const BodySpec& body : vehicle.bodies) vehicles = std::max(vehicles, body.vehicle + 1);
+    const int vehicles = vehicle_count(vehicle);
     for (int v = 0; v < vehicles; ++v) add_vehicle(vehicle, track, v, bodies);
     for (std::size_t i = 0; i < bodies; ++i) {
       const PlacedBody& b = bodies_[i];

@@ -209,11 +209,11 @@ void Simulation::accept(Step step) {
     const Vector force = 0.5 * (motion_.element_force + step.end.element_force);
     const double by_line = line ? force.dot(line->element_stretch - line_->element_stretch) : 0.0;
     e.line += by_line;
-    if (line) {
+    if (line && !line->couplers_aside.empty()) {
       Vector aside = Vector::Zero(moved.size());
       line_->add_couplers_aside(motion_.element_force, 0.5, aside);
       line->add_couplers_aside(step.end.element_force, 0.5, aside);
-      if (!line->couplers_aside.empty()) e.line += moved.dot(aside);
+      e.line += moved.dot(aside);
     }
     dampers +=
         force.dot(elements.of(moved)) + by_line -

@@ -102,7 +102,7 @@ void PairStep::move(Patch& patch) const {
 }
 
 kalker::ContactSolver& PairStep::solver(std::size_t i, const Patch& patch) {
-  const bool few = elements_.few();
+  const bool few = few_elements();
   std::vector<kalker::ContactSolver>& solvers = few ? few_solvers_ : solvers_;
   std::vector<char>& warm = few ? few_warm_ : warm_;
   while (solvers.size() <= i) solvers.emplace_back();

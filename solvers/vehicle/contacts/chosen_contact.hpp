@@ -38,8 +38,8 @@ struct ChoiceSettings {
 /// across the rail, roll, yaw, load, creep forces and friction: in the first one of each sort, and after 10 m at the
 /// latest, the full contact is solved beside the table, which says how wrong the table is. Beyond the tolerance forces
 /// go over into those of the full contact over 50 mm, and back once the table has agreed within 0.7 of it over 0.5 m,
-/// if it did so in all motions of the sort. Where the table has no solution the full contact takes its place at once.
-/// What has been found belongs to the wheel: the same run makes the same choices.
+/// if it was within the tolerance in all motions of the sort. Where the table has no solution the full contact takes
+/// its place at once. What has been found belongs to the wheel: the same run makes the same choices.
 class ChosenContact : public ContactElement {
  public:
   /// Errors: Error(configuration) without elements or with settings that make no sense.

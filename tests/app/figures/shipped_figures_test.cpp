@@ -142,7 +142,9 @@ TEST(ShippedFigures, TheoriesGetALineEachInTwoPanels) {
 TEST(ShippedFigures, SpeedsArePointsAndSomeOfThemPanels) {
   const testing::TemporaryFolder folder;
   draw("figure6.toml",
-       with({"study.vary.0.values=[20, 40, 60]", "simulation.distance_m=0.06",
+       with({"study.vary.0.values=[20, 40, 60]",
+             R"(study.vary.1.values=[{ label = "none", set = ["track.cant_rad=0.0", "simulation.distance_m=0.06"] }, )"
+             R"({ label = "1:40", set = ["track.cant_rad=0.025", "simulation.distance_m=0.06"] }])",
              R"(study.vary.2.values=[{ label = "fitted", set = ["simulation.track=tracks/zhai-fitted.toml"] }])",
              R"(study.figures.1.only=["V [m/s]=20", "simulation.speed_m_s=60"])", "study.figures.1.x_range=[0, 0.06]"}),
        folder.path());

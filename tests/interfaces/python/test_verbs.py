@@ -144,7 +144,7 @@ def test_stability(tmp_path, examples, program):
 def test_response(tmp_path, examples, program):
     file, wheels = examples / "curve.toml", {"simulation.vehicle": str(examples / "vehicles" / "single-wheelset.toml")}
     found = tm.response(file, set=wheels, from_Hz=1.0, to_Hz=30.0, count=4, inputs=["longitudinal_level", "ws1_left.*"], channels=["ws1_left.Q_N"])
-    told = json.loads(program("response", file, "--set", f"simulation.vehicle={wheels['simulation.vehicle']}", "--from", "1", "--to", "30", "--count", "4",
+    told = json.loads(program("response", file, "--set", f"simulation.vehicle=\"{wheels['simulation.vehicle']}\"", "--from", "1", "--to", "30", "--count", "4",
                               "--inputs", "longitudinal_level,ws1_left.*", "--channels", "ws1_left.Q_N", "--json", "-"))
     assert found.document == told and found.frequencies.shape == (4,)
     curve = found.curves["longitudinal_level", "ws1_left.Q_N"]
