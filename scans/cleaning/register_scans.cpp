@@ -147,10 +147,16 @@ class Registration {
     if (motion_.apart > kMostApart)
       refuse(fmt::format("where they overlap they lie {:.2f} mm off each other at best (standard deviation)",
                          kMilli * motion_.apart));
+    // what fits best, as crowns of two rails do, hides how far the rest is off: dirt, and what has moved, is less
+    constexpr double kMostElsewhere = 0.15;
+    if (elsewhere_ > kMostElsewhere)
+      refuse(fmt::format("{:.0f} % of what overlaps lies more than {:.2f} mm off: is it the same rail?",
+                         100.0 * elsewhere_, kMilli * kTukey * std::max(motion_.apart, kLeastApart)));
   }
 
  private:
   static constexpr std::size_t kMostPairs = 6000;
+  static constexpr double kLeastApart = 0.1e-3;  ///< what is nearer is no other surface [m]
 
   [[noreturn]] void refuse(const std::string& why) const {
     throw Error(
@@ -201,6 +207,10 @@ class Registration {
     constexpr double kLeastScale = 1e-7;  // [m]
     motion_.apart = std::max(kLeastScale, kMad * median_of(sizes));
     const double scale = std::max(motion_.apart, least_scale_);
+    const double most = kTukey * std::max(motion_.apart, kLeastApart);
+    elsewhere_ = static_cast<double>(std::count_if(pairs.begin(), pairs.end(),
+                                                   [&](const Pair& pair) { return std::fabs(pair.off) > most; })) /
+                 static_cast<double>(std::max<std::size_t>(1, pairs.size()));
     Eigen::Matrix<double, 6, 6> matrix = Eigen::Matrix<double, 6, 6>::Zero();
     Motion6 rhs = Motion6::Zero();
     double weight = 0.0;
@@ -246,6 +256,7 @@ class Registration {
   Vec3 middle_ = Vec3::Zero();
   double lever_ = 0.0;
   double least_scale_ = 0.0;  ///< of pairs, by which they count [m]
+  double elsewhere_ = 0.0;    ///< part of the pairs that do not fit
   ScanMotion motion_;
 };
 

@@ -49,7 +49,7 @@ TEST(BetweenPoints, AreOffByAboutWhatIsStated) {
       for (std::size_t i = 0; i < known.deviation.size(); ++i)
         if (std::fabs(p.y[i]) < 18e-3) stated = std::max(stated, known.deviation[i]);
       EXPECT_LT(off, 2.5 * stated) << step << ' ' << part;
-      EXPECT_GT(off, 0.15 * stated) << step << ' ' << part;
+      EXPECT_GT(off, 0.1 * stated) << step << ' ' << part;
     }
 }
 

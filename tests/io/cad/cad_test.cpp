@@ -480,11 +480,11 @@ TEST_F(Cad, RefusesWhatIsHigherThanAnyRail) {
 }
 
 /// Waits for what the other end never says.
-void ask_nothing(cad::Channel& channel) { channel.take<std::int64_t>(); }
+void ask_nothing(Channel& channel) { channel.take<std::int64_t>(); }
 
 TEST_F(Cad, HearsThatItsWorkIsToEnd) {
   std::atomic<bool> stop{false};
-  const std::unique_ptr<cad::Channel> channel = cad::start_opencascade("a.step");
+  const std::unique_ptr<Channel> channel = cad::start_opencascade("a.step");
   std::thread later([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     stop = true;
@@ -504,7 +504,7 @@ char state_of(pid_t process) {
 TEST_F(Cad, DiesWithItsParent) {
   const pid_t parent = ::fork();
   if (parent == 0) {
-    const std::unique_ptr<cad::Channel> channel = cad::start_opencascade("a.step");
+    const std::unique_ptr<Channel> channel = cad::start_opencascade("a.step");
     for (;;) ::pause();
   }
   const auto wait_for = [](const auto& what) {

@@ -407,7 +407,8 @@ TEST(LineThrough, PassesThroughItsPoints) {
   for (const Vec3& p : guide) {
     const auto place = line.locate(p, line.nearest(p));
     ASSERT_TRUE(place.has_value());
-    EXPECT_LT(std::hypot(place->y(), place->z()), 5e-3);
+    constexpr double kFreeEnds = 8e-3;  // splines end straight: some 0.07 h^2/R off a circle there
+    EXPECT_LT(std::hypot(place->y(), place->z()), kFreeEnds);
   }
 }
 
