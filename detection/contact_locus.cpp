@@ -237,7 +237,8 @@ void ContactLocus::measure_curves(Fine& fine, int from, int to) const {
   const SampledWheel wheel(bodies_.X_TW, s.first, s.step, s.radius, s.slope);
   fine.measured.resize(line.x.size(), 0), fine.cubic.resize(line.x.size(), 0.0);
   for (auto k = static_cast<std::size_t>(from); k <= static_cast<std::size_t>(to); ++k) {
-    if (std::isnan(line.wheel_z[k]) || std::exchange(fine.measured[k], char{1}) != 0) continue;
+    if (std::isnan(line.wheel_z[k]) || fine.measured[k] != 0) continue;
+    fine.measured[k] = 1;
     const double y = line.rows.y(static_cast<int>(k)), guess = line.wheel_z[k] - 0.5 * kReach * kReach / line.radius[k];
     const double before = wheel.height(line.x[k] - kReach, y, guess),
                  behind = wheel.height(line.x[k] + kReach, y, guess);

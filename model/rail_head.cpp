@@ -71,6 +71,7 @@ std::optional<std::size_t> top_of_widest(std::span<const double> y, std::span<co
 
 std::optional<RailHead> head_of_rail(std::span<const double> y, std::span<const double> z, double depth, bool innermost,
                                      const std::function<double(std::size_t)>& height) {
+  if (!(depth >= 0.0)) return std::nullopt;  // above the top
   if (innermost) return innermost_head(z, depth, height);
   const std::optional<std::size_t> top = top_of_widest(y, z, depth);
   if (!top) return std::nullopt;

@@ -624,7 +624,8 @@ std::optional<FlangeBack> straight_back(std::span<const double> y, std::span<con
 RailOutline outline_of_rail(const SectionPoints& p) {
   constexpr double kLow = 90e-3, kHigh = 300e-3;  // of rails; a file in um that is read as mm is no rail
   constexpr double kEnd = 15e-3, kShoulder = 30e-3, kDeep = 10e-3, kInwards = 1e-3, kClosed = 5e-3;
-  constexpr double kLeastHead = 40e-3, kWidestHead = 100e-3, kWidestWeb = 45e-3, kWebFrom = 0.55, kWebTo = 0.75;
+  constexpr double kLeastHead = 40e-3, kWidestHead = 120e-3, kWidestWeb = 45e-3, kWebFrom = 0.55, kWebTo = 0.75;
+  constexpr double kNoGroove = 100e-3, kBelowGroove = 55e-3;  // EN 14811: heads 113 mm wide, grooves 47 mm deep
   const std::size_t n = p.y.size();
   if (p.body != Body::rail || n < 20) return {};
   const auto ends = std::minmax_element(p.z.begin(), p.z.end());
@@ -662,6 +663,7 @@ RailOutline outline_of_rail(const SectionPoints& p) {
   std::size_t top = 0;
   for (std::size_t i = 1; i < n; ++i)
     if (depth(i) < depth(top)) top = i;
+  const double turns_in = span(sign, 0.0, kShoulder).width() > kNoGroove ? kBelowGroove : kDeep;
   // to both sides until the outline turns in under the head
   const auto reach = [&](std::size_t step) {
     std::size_t count = 0, best = 0;
@@ -671,7 +673,7 @@ RailOutline outline_of_rail(const SectionPoints& p) {
       i = (i + step) % n;
       ++count;
       const double out = std::fabs(p.y[i] - middle);
-      if (depth(i) > kDeep && out < farthest - kInwards) return best;
+      if (depth(i) > turns_in && out < farthest - kInwards) return best;
       if (out >= farthest || depth(i) <= kDeep) best = count;
       farthest = std::max(farthest, out);
     }

@@ -219,8 +219,9 @@ class RailRuler {
       shift = {wanted - widest, -top};
     }
     // whole rails: undersides of the feet at one height
-    constexpr double kWhole = 0.1;
-    if (s_.z_max() - s_.z_min() > kWhole && nominal_->z_max() > kWhole) shift.y() = nominal_->z_max() - s_.z_max();
+    constexpr double kWhole = 0.1, kMostWorn = 25e-3;
+    if (nominal_->z_max() > kWhole && s_.z_max() - s_.z_min() > nominal_->z_max() - kMostWorn)
+      shift.y() = nominal_->z_max() - s_.z_max();
     // places at even distances, so that no part counts for its many points
     struct Spot {
       Vec2 p;

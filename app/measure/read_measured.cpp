@@ -84,7 +84,7 @@ std::optional<double> known_error(const SurfaceSpec& spec) {
     return std::sqrt(squares);
   }
   if (const auto* points = std::get_if<Profile>(&spec.shape); points != nullptr && points->scatter) {
-    if (!measured::is_smoothed(*points)) return std::nullopt;
+    if (!measured::has_errors(*points)) return std::nullopt;
     return std::sqrt(mean_square(measured::deviations(*points->scatter)));
   }
   const bool exact = std::holds_alternative<StandardProfile>(spec.shape) ||
@@ -171,7 +171,7 @@ ReadMeasured read_measured(const std::string& name, const MeasureRequest& reques
 measures::Section mirrored_section(const std::string& name, const MeasureRequest& request) {
   io::ProfileOptions options;
   options.scale = request.scale_to_mm;
-  options.mirror_y = 1;
+  options.mirror_y = request.mirror_y ? -1 : 1;  // where the one is turned, the other lies as its mirror image
   options.placement = io::ProfileOptions::Placement::as_in_file;
   options.smoothing = {};  // sections do that, and know what it leaves
   return measures::Section(io::read_profile(name, Body::wheel, options));

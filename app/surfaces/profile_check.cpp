@@ -267,7 +267,7 @@ void judge_against_nominal(const io::SourcedProfile& sourced, const io::Expected
     worn = fmt::format("the side of great y is worn by {:.2g} mm against {} and that of small y by {:.2g} mm",
                        kMilli * lean->lost_high, lean->name, kMilli * lean->lost_low);
   else if (ranges::all_of(ends, [&](const Profile* p) { return measured::worn_at_great_y(*p, outlines).has_value(); }))
-    worn = measured::worn_at_great_y(profile, outlines);
+    worn = measured::worn_at_great_y(sourced.whole ? *sourced.whole : profile, outlines);  // with its web
   if (worn)
     to.remarks.push_back({"gauge_side", fmt::format("{}, and the gauge is measured on that of small y: is the gauge "
                                                     "side the other one? set mirror_y = {}",

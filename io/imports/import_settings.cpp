@@ -151,14 +151,14 @@ std::vector<ImportKey> listed_keys() {
               "a surface that is written, read again, farther from the fitted one is an error",
               at(&S::fit, &S::Fit::written_um));
 
-  list.number("errors.lateral_mm", kNotNegative,
+  list.number("errors.lateral_mm", {{}, 0.0, 1000.0},
               "standard deviation of the surface's place across that the scan does not show, as of a gauge",
               at(&S::errors, &S::Errors::lateral_mm));
-  list.number("errors.scanner_um", kNotNegative,
+  list.number("errors.scanner_um", {{}, 0.0, 1e6},
               "standard deviation of heights that points next to each other share and the surface follows: what the "
               "scanner is known to do wrong",
               at(&S::errors, &S::Errors::scanner_um));
-  list.number("errors.scanner_mm", kNotNegative, "how far points share it", at(&S::errors, &S::Errors::scanner_mm));
+  list.number("errors.scanner_mm", {{}, 0.0, 1e9}, "how far points share it", at(&S::errors, &S::Errors::scanner_mm));
 
   list.number("damage.threshold_mm", kNotNegative, "depth from which damage is listed; 0: from the noise",
               at(&S::damage, &S::Damage::threshold_mm));

@@ -199,13 +199,15 @@ void add_fit(Page& page, const ImportReport& report) {
 void add_track(Page& page, const ImportReport& report) {
   if (!report.track) return;
   const ImportReport::Track& track = *report.track;
+  const auto known = std::count_if(track.places.begin(), track.places.end(),
+                                   [](const auto& place) { return !std::isnan(place.gauge); });
   page.heading("track, of which this is the right rail");
   page.row("gauge",
            std::isnan(track.gauge_mean)
                ? std::string("not known")
-               : fmt::format("{} to {} mm, {} mm in the mean of {} places", shown_number(1e3 * track.gauge_least, 2),
-                             shown_number(1e3 * track.gauge_greatest, 2), shown_number(1e3 * track.gauge_mean, 2),
-                             track.places.size()));
+               : fmt::format("{} to {} mm, {} mm in the mean of {} of {} places",
+                             shown_number(1e3 * track.gauge_least, 2), shown_number(1e3 * track.gauge_greatest, 2),
+                             shown_number(1e3 * track.gauge_mean, 2), known, track.places.size()));
   const auto [least, greatest] = std::minmax_element(track.places.begin(), track.places.end(),
                                                      [](const auto& a, const auto& b) { return a.cant < b.cant; });
   page.row("cant", track.places.empty() || std::isnan(least->cant)

@@ -132,6 +132,13 @@ std::optional<std::string_view> in_brackets(std::string_view text) {
   return trimmed(text.substr(open + 1, close - open - 1));
 }
 
+/// "1", "1.0"
+bool is_one(std::string_view number) {
+  if (number.find('.') != std::string_view::npos)
+    while (number.ends_with('0')) number.remove_suffix(1);
+  return number == "1" || number == "1.";
+}
+
 }  // namespace
 
 std::optional<LengthUnit> unit_of_word(std::string_view word) {
@@ -160,6 +167,8 @@ std::optional<LengthUnit> unit_in_words(std::string_view text) {
     if (is_unit_word(words[k])) {
       constexpr std::size_t kNear = 4;
       if (k > 0 && is_among(kOthers, words[k - 1].text)) continue;
+      if (k + 1 < words.size() && words[k + 1].whole && is_one(words[k + 1].number))
+        if (const std::optional<LengthUnit> unit = unit_of_word(words[k + 1].text)) return unit;
       for (std::size_t near = k + 1; near <= k + kNear; ++near) {
         if (near < words.size() && is_among(kOthers, words[near].text)) break;
         if (near < words.size() && words[near].text == "in" && unit_at(near + 1)) continue;  // the preposition

@@ -168,8 +168,12 @@ std::vector<ColumnRoles> profiles_of(const std::vector<std::string>& names, cons
   }
   const Coordinates& common = things.front().second;
   std::vector<ColumnRoles> out;
-  if (const auto roles = common.roles()) out.push_back(*roles);
-  const bool shares = out.empty();
+  const auto unnamed = common.roles();
+  // heights of several over one x and y
+  const bool shares = !unnamed || (common.z < 0 && std::any_of(things.begin() + 1, things.end(), [](const auto& thing) {
+                                     return thing.second.z >= 0 && thing.second.x < 0 && thing.second.y < 0;
+                                   }));
+  if (!shares) out.push_back(*unnamed);
   for (std::size_t k = 1; k < things.size(); ++k)
     if (const auto roles = (shares ? things[k].second.with(common) : things[k].second).roles()) out.push_back(*roles);
   if (out.empty()) return out;
@@ -195,6 +199,11 @@ std::size_t coordinates_among(const std::vector<std::string>& names) {
     points::take_unit(name);
     return axis_of(name) != '\0';
   }));
+}
+
+bool is_height(std::string_view name) {
+  points::take_unit(name);
+  return axis_of(name) == 'z';
 }
 
 std::vector<std::string> names_for(std::string_view text, char separator, std::size_t columns) {

@@ -49,6 +49,9 @@ std::vector<ColumnRoles> profiles_of(const std::vector<std::string>& names, cons
 /// How many of these names are those of a coordinate and nothing else.
 std::size_t coordinates_among(const std::vector<std::string>& names);
 
+/// Whether a name is that of a height and nothing else.
+bool is_height(std::string_view name);
+
 /// The names in a line of words or in a comment that has `columns` of them; empty: there are fewer or more.
 std::vector<std::string> names_for(std::string_view text, char separator, std::size_t columns);
 

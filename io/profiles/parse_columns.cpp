@@ -127,7 +127,9 @@ void judge_columns(const ColumnTable& table, const points::FieldStyle& style, co
   const std::string taken = fmt::format("column {} was taken as y, column {} as z", word(roles.y), word(roles.z)),
                     advice = "name them in a line before, for example: y;z";
   const std::size_t known = names.line != nullptr ? coordinates_among(names.names) : 0;
-  if (names.line != nullptr && (known > 0 || !others.varying.empty()))
+  // "Distance; Height"
+  const bool told = known == 1 && names.names.size() == 2 && is_height(names.names[static_cast<std::size_t>(roles.z)]);
+  if (names.line != nullptr && ((known > 0 && !told) || !others.varying.empty()))
     source.doubts.push_back(
         {"columns", fmt::format("line {} names {} columns, and they are not known as y and z of a profile: {}; {}",
                                 names.line->number(), names.names.size(), taken, advice)});
@@ -136,7 +138,7 @@ void judge_columns(const ColumnTable& table, const points::FieldStyle& style, co
         {"columns", fmt::format("column {} runs as column {} does: are there several profiles side by side? {}; {}",
                                 word(*others.like_z), word(roles.z), taken, advice)});
   else if (names.line != nullptr)
-    source.notes.push_back(fmt::format("line {} names no column that is known: {}", names.line->number(), taken));
+    source.notes.push_back(fmt::format("line {} does not name both y and z: {}", names.line->number(), taken));
   if (!unused.empty()) source.notes.push_back("columns not used: " + unused);
 }
 

@@ -27,7 +27,7 @@ CloudBuilder::CloudBuilder(const ByteBlocks& bytes, const ScanReadOptions& optio
 }
 
 void CloudBuilder::set_station(std::uint16_t pass, const Vec3& place) {
-  if (!station_of_file_) scan_.cloud.stations.clear();
+  if (station_ && !station_of_file_) return;  // what was asked for
   station_of_file_ = true;
   station_ = place;
   scan_.cloud.stations[pass] = place;
@@ -120,7 +120,12 @@ bool CloudBuilder::keep_different_passes() {
   if (std::adjacent_find(passes.begin(), passes.end(), std::not_equal_to<>()) != passes.end() ||
       (handed_over_ > 0 && !passes.empty() && passes.front() != pass_of_batch_))
     scan_.several_passes = true;
-  if (!scan_.several_passes && !batch_) drop_passes();
+  if (!scan_.several_passes && !batch_) {
+    // one alone is that of all points
+    if (!passes.empty() && scan_.cloud.stations.size() > 1)
+      std::erase_if(scan_.cloud.stations, [&](const auto& one) { return one.first != passes.front(); });
+    drop_passes();
+  }
   return scan_.several_passes;
 }
 

@@ -49,7 +49,7 @@ struct ScanReadOptions {
   std::size_t most_points = 200'000'000;        ///< a file that says it has more is refused
   std::optional<Eigen::AlignedBox3d> box = {};  ///< points outside are left out, in the unit of the file
   std::optional<ScanRanges> ranges = {};        ///< the same
-  std::optional<Vec3> station = {};  ///< where the scanner stood, for files that do not say it, in their unit
+  std::optional<Vec3> station = {};             ///< where the scanner stood, whatever a file says of it, in its unit
   /// Gets the points in their order, kBatch at most at a time, and may take them; the cloud of the scan stays empty
   /// then. Without normals and intensities; with passes wherever the file has them, see Scan::several_passes. What is
   /// read as a whole (.stl, compressed .pcd) comes in batches, too.

@@ -224,7 +224,7 @@ std::shared_ptr<const SurfaceErrors> errors_of_lines(std::span<const std::string
   for (std::size_t k = 0; k < fields; ++k) {
     SurfaceErrors::Field& field = out->fields.emplace_back();
     field.source = numbers.source();
-    field.length = numbers.take(1.0, kFarthest);
+    field.length = numbers.take(1.0, kFarthestAlong);
     if (!(field.length > 0.0)) refuse_lines("an error has no length");
     const std::size_t curves = numbers.count(1, draws);
     if (curves != 1 && curves != draws) refuse_lines("they do not hold as much as they say");

@@ -269,7 +269,14 @@ std::vector<ScanMotion> register_scans(std::span<const Vec3> points, std::span<c
   std::vector<ScanMotion> out;
   if (of_pass.size() < 2) return out;
   std::vector<Registration> waiting;
-  for (const auto& [pass, own] : of_pass) waiting.emplace_back(pass, own);
+  for (const auto& [pass, own] : of_pass) {
+    try {
+      waiting.emplace_back(pass, own);
+    } catch (const Error& error) {
+      throw Error(error.kind(), fmt::format("scan {} cannot be laid on the others: {}", pass, error.message()), {},
+                  "leave its points out");
+    }
+  }
   const auto first = std::max_element(waiting.begin(), waiting.end(), [](const Registration& a, const Registration& b) {
     return a.motion().points < b.motion().points;
   });

@@ -488,7 +488,7 @@ TEST_F(ImportedNoise, OfFitsCoversWhatResultsAreOff) {
 /// scripts/error-bars.py asks a thousand scans.
 TEST_F(ImportedNoise, ErrorBarsHoldTheTruth) {
   constexpr int kScans = 5;
-  const std::string squat = kNewRail + "\n[[rail.squats]]\nlength_mm = 40\nwidth_mm = 30\ndepth_mm = 0.4";
+  const std::string squat = kNewRail + "\n[[rail.squats]]\nlength_mm = 120\nwidth_mm = 60\ndepth_mm = 0.2";
   int known = 0, within_two = 0, named = 0;
   double normalised = 0.0;
   for (const std::string& keys : {kNewRail, squat}) {

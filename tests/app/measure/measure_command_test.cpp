@@ -272,6 +272,7 @@ TEST(Measure, TwoWheelsOfAnAxle) {
   const json m = measured({"wheel", right, "--mate", left});
   EXPECT_NEAR(m["wheel"]["back_to_back_mm"], 1360.0, 1e-3);
   EXPECT_NEAR(m["wheel"]["active_faces_mm"], 1425.0, 1e-3);
+  EXPECT_NEAR(measured({"wheel", left, "--mate", right, "--mirror-y"})["wheel"]["back_to_back_mm"], 1360.0, 1e-3);
   EXPECT_EQ(run_program({"measure", "wheel", right, "--mate", right}).status, 3);
   // the other wheel's points scatter, and what that leaves of its flange counts
   const std::string noisy = written(folder.path() / "noisy.txt", miniprof_text("y z", 750.0, -1.0, 0.02));

@@ -180,14 +180,16 @@ TEST_F(Readings, AnUprightWornFaceShowsInTheAxesOfTheRail) {
 
 TEST_F(Readings, AWebShowsTheWornSideInAnyAxes) {
   for (const char* name : {"60E1", "54E1", "49E1"}) {
-    const Points head = standard_points(name),
-                 part = those(outline_points(name), [](const Vec2&p) { return p.y() < 85.0; });
+    const Points head = standard_points(name), outline = outline_points(name),
+                 part = those(outline, [](const Vec2&p) { return p.y() < 85.0; });
     for (const Change& wear : {inclined_wear(head, 1.0, 3.0), upright_wear(head, 3.0, 4.0)})
       for (const bool left : {false, true})
         for (const Way& way : {Way{left, false}, Way{left, true, Vec2(-11.0, 23.0), 0.025}}) {
-          const auto found = doubts(way.of(each(part, wear)), Body::rail);
-          EXPECT_EQ(std::count(found.begin(), found.end(), "gauge_side"), left ? 1 : 0)
-              << name << ' ' << left << ' ' << way.roll;
+          for (const Points& points : {part, outline}) {
+            const auto found = doubts(way.of(each(points, wear)), Body::rail);
+            EXPECT_EQ(std::count(found.begin(), found.end(), "gauge_side"), left ? 1 : 0)
+                << name << ' ' << left << ' ' << way.roll << ' ' << points.size();
+          }
         }
   }
 }

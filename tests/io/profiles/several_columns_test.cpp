@@ -131,10 +131,10 @@ TEST(SideBySide, NamesThatAreNotKnownAreSaid) {
   EXPECT_THAT(doubts_in(wheel_lines("across;down;warmth", three)), ElementsAre("columns"));
   // of two there is none, and which is which the shape tells
   EXPECT_THAT(doubts_in(wheel_lines("across;down", two)), IsEmpty());
-  EXPECT_THAT(notes_of(wheel_lines("across;down", two)), HasSubstr("line 1 names no column that is known"));
+  EXPECT_THAT(notes_of(wheel_lines("across;down", two)), HasSubstr("line 1 does not name both y and z"));
   // other words for them, and titles
   for (const char* header :
-       {"Quer;H\xC3\xB6he", "Quer;Hoehe", "Lateral [mm];Vertical [mm]", "Wheel 7 of the left side"})
+       {"Quer;H\xC3\xB6he", "Quer;Hoehe", "Lateral [mm];Vertical [mm]", "Distance;Height", "Wheel 7 of the left side"})
     EXPECT_THAT(doubts_in(wheel_lines(header, two)), IsEmpty()) << header;
   EXPECT_THAT(doubts_in("# left wheel, z down\n" + columns(wheel())), IsEmpty());
 }

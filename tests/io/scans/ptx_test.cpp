@@ -31,12 +31,23 @@ TEST(Ptx, RangesCountFromTheStation) {
   // 1, 10.01 and 22.7 from the first station, 3.7 and 8.8 from the second
   EXPECT_EQ(scan.cloud.points, (std::vector<Vec3>{kPtxPoints[3], kPtxPoints[4]}));
   EXPECT_EQ(scan.outside, 3u);
+  EXPECT_TRUE(scan.cloud.passes.empty());
+  ASSERT_NE(station_of(scan.cloud, 0), nullptr);
+  EXPECT_EQ(*station_of(scan.cloud, 0), Vec3(10, 20, 30)) << "of the only one that is left";
   EXPECT_EQ(scan.points_in_file, scan.cloud.points.size() + scan.outside + scan.not_finite);
   options.ranges = ScanRanges{};
   options.ranges->least_intensity = 0.5;
   const Scan strong = parse(parse_ptx, ptx(), ByteBlocks::kBlock, options);
   EXPECT_EQ(strong.cloud.points.size(), 4u);
   EXPECT_EQ(strong.outside, 1u);
+}
+
+TEST(Ptx, AStationThatIsAskedForCounts) {
+  ScanReadOptions options;
+  options.station = Vec3(100, 0, 0);
+  const Scan scan = parse(parse_ptx, ptx(), ByteBlocks::kBlock, options);
+  EXPECT_EQ(scan.cloud.stations.size(), 1u);
+  EXPECT_EQ(*station_of(scan.cloud, 0), Vec3(100, 0, 0));
 }
 
 TEST(Ptx, OneStationIsOnePass) {

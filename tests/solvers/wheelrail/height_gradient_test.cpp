@@ -18,6 +18,7 @@
 #include "treadmark/solvers/wheelrail/mirror.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 #include "treadmark/solvers/wheelrail/pair_step.hpp"
+#include "treadmark/solvers/wheelrail/rail_memory.hpp"
 #include "treadmark/tests/backends/spline/test_shapes.hpp"
 #include "treadmark/tests/solvers/wheelrail/standard_pair.hpp"
 
@@ -289,6 +290,32 @@ TEST(HeightGradient, OfTheLeftIsTheMirrorImageAndOfAnyThreadsTheSameToTheLastBit
     for (double& each : field) each *= sign;
     EXPECT_EQ(field, one[n].wheel_field[0]) << name;
   }
+}
+
+TEST(HeightGradient, OfAReferenceIsTheSameWhateverWasAskedBefore) {
+  const Geometry geometry = standard_geometry();
+  const Problem problem = standard_problem();
+  const PairSolution s = Pair(geometry).solve(problem);
+  detection::BodyPair bodies;
+  bodies.rail = geometry.rail.get(), bodies.wheel = geometry.wheel.get();
+  bodies.wheel_profile = detection::whole_profile(*geometry.wheel);
+  const auto with_step = [&](const auto& ask) {
+    RailMemory memory(*geometry.rail);
+    std::vector<kalker::ContactSolver> none;
+    PhaseTimes times;
+    const Instant before;
+    PairStep step(geometry, problem, before, none, none, times, bodies, memory);
+    EXPECT_TRUE(step.place(0.0));
+    return ask(step);
+  };
+  const auto region = with_step([&](PairStep& p) { return p.lay(s.z, s.patches).at(0).region; });
+  const auto count = [&](bool looked) {
+    return with_step([&](PairStep& p) {
+      if (looked) p.lay(s.z, s.patches);
+      return p.reference_change(s.z, region).value().wheel.size();
+    });
+  };
+  EXPECT_EQ(count(true), count(false));
 }
 
 /// However many parameters there are: of a pressure under a load three linear systems.

@@ -209,7 +209,7 @@ TEST(PairNeighbours, OfAWheelOnItsFlat) {
   p.state.position.pitch = 0.02;  // 9 mm beside the middle
   std::vector<Tried> tried = tried_parameters(true);
   tried.push_back(of_problem("pitch", kLengthStep, 5e-8, [](Problem& q) -> double& { return q.state.position.pitch; }));
-  tried.push_back(of_shape("depth", Facing::down, 0, 1e-3));
+  tried.push_back(of_shape("depth", Facing::down, geometry.wheel->parameter_count() - 1, 1e-3));
   expect_slopes(geometry, p, tried);
   Pair pair(geometry);
   const PairSolution s = pair.solve(p);
@@ -308,7 +308,7 @@ TEST(PairNeighbours, RefuseWhatTheyDoNotFollow) {
     EXPECT_NE(report.message, "");
   }
   PairParameter shape;
-  shape.shape_of = Facing::up;
+  shape.shape_of = Facing::up, shape.shape = standard_geometry().rail->parameter_count();
   refused(problem, s, shape);
   refused(problem, s, {aside.change, 0.0});
   refused(problem, {}, aside);
