@@ -178,6 +178,10 @@ class CaseWithErrors {
     for (const auto& [name, value] : base_) out_.numbers.push_back({name, value, 0.0, false, {}});
     slopes_.assign(base_.size(), Numbers(factors_, kNaN));
     why_ = found.message;
+    const auto changes_surfaces = [&](std::size_t k) {
+      return k >= found.parameters.size() || found.parameters[k].of_surfaces || !found.parameters[k].left_out.empty();
+    };
+    for (std::size_t k = 0; k < keys.size(); ++k) remakes_ = remakes_ || (changes_surfaces(k) && !store_.replaced());
     if (!why_.empty()) return;
     // keys come first there, each source in its turn here
     std::size_t key = 0, height = keys.size(), factor = 0;
@@ -247,7 +251,8 @@ class CaseWithErrors {
 
   /// Some more drawn solutions, up to a count.
   void solve_more(std::size_t count) {
-    constexpr std::size_t kAtOnce = 16;  // their fields are in memory
+    constexpr std::size_t kAtOnce = 16;  // their fields are in memory, and surfaces where each draw has its own
+    SurfaceStore passing;
     io::CaseFile file;
     std::vector<std::optional<wheelrail::Geometry>> geometries;
     const std::size_t first = drawn_.size(), last = std::min(count, first + kAtOnce);
@@ -256,7 +261,7 @@ class CaseWithErrors {
       for (std::size_t k = 0; k < factors_; ++k) one.factors.push_back(normal(random_));
       try {
         io::Case c = case_with(one.factors);
-        geometries.emplace_back(geometry_with(c, one.factors));
+        geometries.emplace_back(geometry_with(c, one.factors, remakes_ ? passing : store_));
         c.number = static_cast<int>(i - first);
         c.sequence = c.number;
         c.shown = true;
@@ -289,8 +294,8 @@ class CaseWithErrors {
     return c;
   }
 
-  wheelrail::Geometry geometry_with(const io::Case& c, const Numbers& factors) {
-    wheelrail::Geometry geometry = geometry_of(std::get<io::WheelRailCase>(c.content), store_, regions_);
+  wheelrail::Geometry geometry_with(const io::Case& c, const Numbers& factors, SurfaceStore& store) {
+    wheelrail::Geometry geometry = geometry_of(std::get<io::WheelRailCase>(c.content), store, regions_);
     std::size_t factor = 0;
     for (const UncertainSource& source : sources_) {
       if (source.key.empty()) {
@@ -342,6 +347,7 @@ class CaseWithErrors {
   io::Case case_;  ///< without errors, from rest
   const io::CaseResult& solved_;
   SurfaceStore& store_;
+  bool remakes_ = false;  ///< a key changes surfaces
   const SampledRegions& regions_;
   std::size_t samples_;
   const NamedNumbers base_;

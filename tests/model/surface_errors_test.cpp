@@ -94,6 +94,12 @@ TEST(SurfaceErrors, LinesHoldTheirSources) {
             nullptr);
 }
 
+TEST(SurfaceErrors, MayBeSharedFartherThanASectionIsWide) {
+  SurfaceErrors errors = with_all_sources();
+  errors.fields.back().length = 25.0;
+  EXPECT_EQ(errors_of_lines(to_lines(errors))->fields.back().length, 25.0);
+}
+
 TEST(SurfaceErrors, SourcesChangeWithTheCoordinates) {
   const SurfaceErrors errors = with_all_sources(), mirrored = changed(errors, 2.0, true, false, Stations::along),
                       wheel = changed(errors, 1.0, false, true, Stations::round);

@@ -146,7 +146,8 @@ TEST(UnitsOfColumns, OnlyWordsThatSayTheUnitOfLengthsCount) {
   };
   const double mm = 0.130;
   for (const char* head : {"# scanner calibrated in m, speed 2 m/s", "# speed unit: m/s", "# unit of speed is m",
-                           "# stations every 1 in; numbers in mm", "# made in 3 m", "# all values in mm"})
+                           "# stations every 1 in; numbers in mm", "# made in 3 m", "# all values in mm",
+                           "# unit: 1 mm", "# units = 1.000 mm"})
     EXPECT_NEAR(size(head), mm, 1e-9) << head;
   std::string inches = "# coordinates in inches\n";
   for (const Point& p : wheel()) inches += fmt::format("{:.8f} {:.8f}\n", p.y / 25.4, p.z / 25.4);

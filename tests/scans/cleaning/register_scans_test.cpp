@@ -115,6 +115,10 @@ TEST(RegisterScans, DoubtfulOnesAreRefused) {
   for (std::size_t i = 0; i < other.points.size(); ++i)
     if (other.passes[i] == 7) other.points[i] *= 1.1;  // another unit, or another rail
   EXPECT_THAT(refusal(other, 40e-3), HasSubstr("scan 7 cannot be laid on the others"));
+  TwoScans few(true, 0.3, Pose{});
+  few.points.insert(few.points.end(), few.points.begin(), few.points.begin() + 57);
+  few.passes.insert(few.passes.end(), 57, 9);
+  EXPECT_THAT(refusal(few, 20e-3), HasSubstr("scan 9 cannot be laid on the others"));
   const std::vector<std::uint16_t> one(apart.points.size(), 3);
   EXPECT_TRUE(register_scans(apart.points, one, 20e-3).empty());
 }
