@@ -85,11 +85,23 @@ Minimum minimise(const Minimisation& problem) {
   out.point = problem.start;
   for (std::size_t i = 0; i < out.point.size(); ++i)
     out.point[i] = std::clamp(out.point[i], problem.lower[i], problem.upper[i]);
-  double least = 0.0;
-  const nlopt_result ended = nlopt_optimize(optimiser.get(), out.point.data(), &least);
-  if (state.thrown) std::rethrow_exception(state.thrown);
-  out.report.iterations = nlopt_get_numevals(optimiser.get());
-  if (ended > 0) return out;
+  // At a kink, as where contact jumps, what was learned of the curvature before it leads nowhere: begun anew from there
+  // the search goes on.
+  constexpr int kMostTimes = 6;
+  nlopt_result ended = NLOPT_FAILURE;
+  double before = HUGE_VAL;
+  bool converged = false;
+  for (int times = 0; times < kMostTimes; ++times) {
+    double least = 0.0;
+    ended = nlopt_optimize(optimiser.get(), out.point.data(), &least);
+    if (state.thrown) std::rethrow_exception(state.thrown);
+    out.report.iterations += nlopt_get_numevals(optimiser.get());
+    converged = converged || ended > 0;
+    const bool kept = times > 0 && !(least < before - problem.tolerance * std::fabs(before));
+    if (ended <= 0 || problem.method != Method::slsqp || kept) break;
+    before = least;
+  }
+  if (converged) return out;
   out.report.status =
       ended == NLOPT_ROUNDOFF_LIMITED || ended == NLOPT_FORCED_STOP ? Status::not_converged : Status::failed;
   const char* said = ended == NLOPT_FAILURE ? nullptr : nlopt_get_errmsg(optimiser.get());  // "bug" for any failure
