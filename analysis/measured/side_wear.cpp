@@ -140,7 +140,7 @@ std::optional<std::string> worn_at_great_y(const Profile& rail, std::span<const 
   const std::optional<Sides> sides = sides_of(rail);
   if (!sides) return std::nullopt;
   if (const std::optional<double> more = lost_from_web(*sides)) {
-    constexpr double kSome = 0.4e-3;  // of a face that leans, most is lost where it is not looked at
+    constexpr double kSome = 0.2e-3;  // of a face that leans, most is lost where it is not looked at
     if (*more < kSome) return std::nullopt;
     if (*more < kLost) return inclined_face(*sides);
     return fmt::format("from the middle of its web the side of great y has lost {:.2g} mm more than that of small y",
