@@ -49,6 +49,7 @@ class OffsetField {
 
   /// Numbers that the field follows from, as Surface::parameters.
   virtual std::vector<ShapeParameter> parameters() const { return {}; }
+  /// How many parameters() has.
   virtual std::size_t parameter_count() const { return parameters().size(); }
   /// The field with one of them changed; null: there is no such field.
   virtual std::shared_ptr<const OffsetField> changed(std::size_t parameter, double amount) const {
